@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "rprr_geometry/result.hpp"
+#include "rprr_geometry/wire.hpp"
+
+namespace rprr {
+
+/// Encodes 8-bit BGR images (CV_8UC3). One object serves one thread.
+class ColourEncoder {
+ public:
+  virtual ~ColourEncoder() = default;
+  /// Name by which the decoder is found: "pgf", later others.
+  virtual std::string name() const = 0;
+  /// The payload, sealed with a CRC-32, or why there is none.
+  virtual Result<Bytes> encode(const cv::Mat& bgr) = 0;
+};
+
+/// Decodes untrusted payloads of any codec that this build knows. One object serves one thread.
+class ColourDecoder {
+ public:
+  virtual ~ColourDecoder() = default;
+  /// An image of exactly the expected size, or an error.
+  virtual Result<cv::Mat> decode(const std::string& codec, ByteView payload, cv::Size expected) = 0;
+};
+
+/// Names that make_colour_encoder takes.
+std::vector<std::string> colour_codecs();
+/// quality is the codec's own scale. pgf: 0 lossless, 1 finest, 30 coarsest. Errors: unknown name
+/// or a quality out of range.
+Result<std::unique_ptr<ColourEncoder>> make_colour_encoder(const std::string& codec, int quality);
+
+/// Decodes in this process: for payloads of our own making only. libpgf crashes on hostile bytes.
+std::unique_ptr<ColourDecoder> make_local_colour_decoder();
+
+/// Limits of the worker process that decodes what came over a radio.
+struct WorkerLimits {
+  double seconds = 2.0;  // wall clock for one image; then the worker is killed
+  std::size_t memory = std::size_t{512} << 20;  // address space, bytes
+};
+/// Decodes in a child process that is restarted when it dies, hangs or exceeds its limits; hostile
+/// bytes cost one error. The worker executable is found beside the installed package or by
+/// RPRR_COLOUR_WORKER; the error of the first decode says so if it is missing.
+std::unique_ptr<ColourDecoder> make_isolated_colour_decoder(const WorkerLimits& limits = {});
+
+}  // namespace rprr

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/result.hpp"
+#include "rprr_geometry/se3.hpp"
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/wire.hpp"
+
+namespace rprr {
+
+/// What the robot tells the station about the exchange, for PairStatistics.
+struct FrameReport {
+  std::uint16_t blocks_predicted = 0;         // |B_p|
+  std::uint16_t blocks_validated = 0;         // |B_v|
+  std::uint32_t bytes_pose = 0;               // pose messages both ways, serialised
+  std::uint32_t bytes_masks = 0;              // block masks both ways, serialised
+  std::uint32_t independent_bytes_depth = 0;  // whole frame, same codec; 0: not measured
+  std::uint32_t independent_bytes_colour = 0;
+  float ms_pose = 0.0f;
+  float ms_predict = 0.0f;
+  float ms_validate = 0.0f;
+  float ms_encode = 0.0f;
+};
+
+/// One RGB-D frame as it crosses the radio: whole, or the blocks that the station cannot derive
+/// from a reference frame.
+struct EncodedFrame {
+  Camera camera;  // of this frame's images
+  bool sparse = false;
+  std::string reference;           // sparse: robot whose frame the station predicts from
+  Stamp reference_stamp = 0;       // sparse: stamp of that frame
+  Pose motion = Pose::Identity();  // sparse: M_ab, reference to this camera
+  BlockMask mask;                  // sparse: the blocks sent; empty otherwise
+  Bytes depth;                     // DHC-M payload of the whole frame or of the mask's blocks
+  std::string colour_codec;        // name for ColourDecoder
+  Bytes colour;  // payload; of a sparse frame: whole image, meaningful in the mask's blocks
+  FrameReport report;
+};
+
+/// Serialised bytes by kind; extras is everything else in the container.
+struct EncodedSizes {
+  std::size_t mask = 0;
+  std::size_t depth = 0;
+  std::size_t colour = 0;
+  std::size_t extras = 0;
+  std::size_t total = 0;
+};
+
+/// The container: versioned, lengths checked, sealed with a CRC-32 (doc/encoded_frame.md).
+Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes = nullptr);
+/// Untrusted bytes to a frame whose numbers make sense (camera valid, motion rigid, mask of the
+/// camera's grid). The payloads inside are still untrusted.
+Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes = nullptr);
+
+/// Length of the rprr_msgs/EncodedFrame that carries data_bytes, serialised by ROS.
+constexpr std::size_t encoded_message_bytes(std::size_t frame_id_length, std::size_t data_bytes) {
+  return ros_header_bytes(frame_id_length) + 4 + ros_array_bytes(data_bytes);
+}
+
+}  // namespace rprr

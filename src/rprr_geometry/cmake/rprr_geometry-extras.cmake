@@ -1,0 +1,33 @@
+# What every RPRR package builds with. Exported by rprr_geometry, which all of them stand on.
+option(RPRR_WERROR "Treat compiler warnings as errors" OFF)
+set(RPRR_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread")
+
+find_program(RPRR_CCACHE ccache)
+if(RPRR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${RPRR_CCACHE})
+endif()
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# Language level, warnings and sanitizers of one of our targets. No -march: binaries run on any CPU
+# of the architecture.
+function(rprr_target TARGET)
+  target_compile_features(${TARGET} PUBLIC cxx_std_17)
+  set_target_properties(${TARGET} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${TARGET} PRIVATE -Wall -Wextra -Wpedantic)
+  if(RPRR_WERROR)
+    target_compile_options(${TARGET} PRIVATE -Werror)
+  endif()
+  if(RPRR_SANITIZE)
+    target_compile_options(${TARGET} PRIVATE -fsanitize=${RPRR_SANITIZE} -fno-omit-frame-pointer -g)
+    target_link_libraries(${TARGET} -fsanitize=${RPRR_SANITIZE})
+  endif()
+endfunction()
+
+# One gtest binary from test/<NAME>.cpp, linked with the libraries given.
+function(rprr_gtest NAME)
+  catkin_add_gtest(${NAME} test/${NAME}.cpp)
+  rprr_target(${NAME})
+  target_link_libraries(${NAME} ${ARGN} ${GTEST_MAIN_LIBRARIES} gtest_main)
+endfunction()

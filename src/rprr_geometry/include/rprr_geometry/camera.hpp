@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "rprr_geometry/result.hpp"
+#include "rprr_geometry/wire.hpp"
+
+namespace rprr {
+
+/// The largest image side that any part of RPRR accepts.
+constexpr int kMaxImageSide = 8192;
+
+/// A pinhole camera without distortion (images are rectified before they come here). Optical frame
+/// of REP-103: x right, y down, z forward. Pixel centres have integer coordinates.
+struct Camera {
+  int width = 0;    // pixels
+  int height = 0;   // pixels
+  double fx = 0.0;  // focal lengths, pixels
+  double fy = 0.0;
+  double cx = 0.0;  // principal point, pixels
+  double cy = 0.0;
+
+  /// Sizes within kMaxImageSide, focal lengths positive, everything finite.
+  bool valid() const;
+
+  /// Point at pixel (u, v) and depth z (metres along the optical axis).
+  Eigen::Vector3d unproject(double u, double v, double z) const {
+    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
+  }
+  /// Pixel coordinates of a point with z > 0.
+  Eigen::Vector2d project(const Eigen::Vector3d& p) const {
+    return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
+  }
+  bool contains(double u, double v) const {
+    return u >= -0.5 && v >= -0.5 && u < width - 0.5 && v < height - 0.5;
+  }
+};
+
+/// Bytes of a camera on the wire: u16 width, u16 height, f32 fx, fy, cx, cy.
+constexpr std::size_t kCameraBytes = 20;
+void put_camera(ByteWriter& writer, const Camera& camera);
+/// Refuses what valid() refuses.
+Result<Camera> get_camera(ByteReader& reader);
+
+/// The camera as it comes out of the wire (intrinsics rounded to float32): both ends must compute
+/// with this one.
+Camera rounded_for_wire(const Camera& camera);
+
+/// Short name of a camera's wire bytes (their CRC-32); never 0, which stands for "not known".
+std::uint32_t camera_hash(const Camera& camera);
+
+}  // namespace rprr

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/se3.hpp"
+
+namespace rprr {
+
+/// A depth image as another camera would see it: the paper's Z_b*.
+struct WarpedDepth {
+  cv::Mat metres;  // CV_32FC1, target camera's size; 0 where nothing was warped to
+  cv::Mat source;  // CV_32SC1, v * width + u of the pixel in the source image; -1 where none
+};
+
+/// Paper eq. 1 for every valid pixel, nearest target pixel, the closest to the camera wins. Both
+/// cameras' intrinsics are used. motion maps points of the source's optical frame into the
+/// target's. `out` is reused between calls: no allocation while sizes stay the same. The frame must
+/// have the source camera's size.
+void warp_depth(const DepthFrame& source, const Camera& source_camera, const Camera& target_camera,
+                const Pose& motion, WarpedDepth& out);
+
+}  // namespace rprr
