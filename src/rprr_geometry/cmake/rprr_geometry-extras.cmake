@@ -31,3 +31,32 @@ function(rprr_gtest NAME)
   rprr_target(${NAME})
   target_link_libraries(${NAME} ${ARGN} ${GTEST_MAIN_LIBRARIES} gtest_main)
 endfunction()
+
+# The two below expect include_directories(include) and SYSTEM ${catkin_INCLUDE_DIRS} before them.
+
+# Executable <NAME> that runs the nodelet TYPE ("package/Class") as a node of its own, and its install.
+function(rprr_standalone NAME TYPE)
+  set(main ${CMAKE_CURRENT_BINARY_DIR}/${NAME}.cpp)
+  file(GENERATE OUTPUT ${main} CONTENT
+"#include <rprr_geometry_ros/standalone.hpp>
+int main(int argc, char** argv) { return rprr::run_standalone(argc, argv, \"${TYPE}\"); }
+")
+  add_executable(${NAME} ${main})
+  rprr_target(${NAME})
+  target_link_libraries(${NAME} ${catkin_LIBRARIES})
+  install(TARGETS ${NAME} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+# The nodelet library rprr_<name>_nodelets from the sources given, linked with the package's core, and
+# its install together with nodelet_plugins.xml and config/.
+function(rprr_nodelets CORE)
+  add_library(${CORE}_nodelets ${ARGN})
+  rprr_target(${CORE}_nodelets)
+  target_link_libraries(${CORE}_nodelets ${CORE} ${catkin_LIBRARIES})
+  add_dependencies(${CORE}_nodelets ${catkin_EXPORTED_TARGETS})
+  install(TARGETS ${CORE}_nodelets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/config)
+    install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  endif()
+endfunction()

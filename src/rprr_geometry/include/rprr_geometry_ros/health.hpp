@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace rprr {
+
+/// What a nodelet says about itself: problems as throttled log messages and on /diagnostics,
+/// counters on /diagnostics. Any thread may call it.
+class Health {
+ public:
+  /// hardware is the robot (or station) that the nodelet serves; name is the nodelet's.
+  Health(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
+         const std::string& hardware);
+
+  /// Something is wrong: text names the topic, what was expected and the remedy. Logged at most
+  /// once every five seconds for a key; /diagnostics shows it until ten seconds after its last
+  /// report.
+  void warn(const std::string& key, const std::string& text);
+  void error(const std::string& key, const std::string& text);
+  /// Adds to a counter shown on /diagnostics.
+  void count(const std::string& counter, std::uint64_t by = 1);
+  /// Shows a value on /diagnostics.
+  void show(const std::string& name, const std::string& value);
+
+ private:
+  struct Problem {
+    bool is_error = false;
+    std::string text;
+    ros::WallTime last;
+    ros::WallTime logged;
+    std::uint64_t times = 0;
+  };
+
+  void report(const std::string& key, const std::string& text, bool is_error);
+  void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  std::mutex mutex_;
+  std::string name_;
+  std::map<std::string, Problem> problems_;
+  std::map<std::string, std::uint64_t> counters_;
+  std::map<std::string, std::string> values_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace rprr
