@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_pose/messages.hpp"
+#include "rprr_pose/pose_frame.hpp"
+
+namespace rprr {
+
+/// What an exchange decided about one of the robot's own frames (rprr_msgs/ExchangeEvent).
+struct FrameDecision {
+  enum class Action : std::uint8_t { kSendWhole = 0, kSendSparse = 1 };
+  Action action = Action::kSendWhole;
+  PoseFramePtr frame;
+  std::uint32_t exchange = 0;  // 0: none
+  std::string peer;            // empty: none
+  std::string reason;          // why whole, for people
+  RelativePoseMessage pose;    // with kSendSparse
+  std::optional<Camera> peer_camera;
+};
+
+/// What a role wants done after it was given something.
+struct RoleOutput {
+  std::vector<PoseMessage> send;
+  std::vector<FrameDecision> decisions;
+  std::vector<std::string> problems;  // hostile or unexpected input, for diagnostics
+};
+
+/// One robot's side of the exchanges with one peer: a pure state machine. Frames, messages and the
+/// time (any monotonic clock, nanoseconds) go in; messages and decisions come out. Nodelets,
+/// rprr_eval and tests drive the same objects. One thread at a time.
+class ExchangeRole {
+ public:
+  virtual ~ExchangeRole() = default;
+  /// A new frame of this robot.
+  virtual void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) = 0;
+  /// A message of the peer, as it came from the radio. Those for other receivers are ignored.
+  virtual void receive(const PoseMessage& message, Stamp now, RoleOutput& out) = 0;
+  /// Time passes; call it a few times per timeout.
+  virtual void tick(Stamp now, RoleOutput& out) = 0;
+};
+
+}  // namespace rprr

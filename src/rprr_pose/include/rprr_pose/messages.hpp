@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/se3.hpp"
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/wire.hpp"
+#include "rprr_pose/pose_status.hpp"
+
+namespace rprr {
+
+/// The messages of an exchange as the roles see them: what rprr_msgs carries, without ROS. `data`
+/// is untrusted until the parsers of samples_wire.hpp and update_wire.hpp accepted it.
+struct SamplesMessage {
+  Stamp stamp = 0;       // of the sender's frame
+  std::string frame_id;  // optical frame of the sender
+  std::string receiver;
+  std::uint32_t exchange = 0;
+  Bytes data;
+};
+
+struct UpdateMessage {
+  Stamp stamp = 0;
+  std::string receiver;
+  std::uint32_t exchange = 0;
+  Bytes data;
+};
+
+struct RelativePoseMessage {
+  Stamp stamp = 0;       // of the reference's frame
+  std::string frame_id;  // optical frame of the reference
+  Stamp dependent_stamp = 0;
+  std::string dependent;  // the receiver
+  std::uint32_t exchange = 0;
+  PoseStatus status = PoseStatus::kTimedOut;
+  Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
+  Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz)
+  std::uint16_t iterations = 0;
+  std::uint16_t inliers = 0;
+  float residual = 0.0f;  // RMS, metres
+  std::uint32_t bytes_spent = 0;
+};
+
+using PoseMessage = std::variant<SamplesMessage, UpdateMessage, RelativePoseMessage>;
+
+/// Length of the message as ROS serialises it: what it costs on the radio, for each receiver.
+std::size_t serialised_bytes(const SamplesMessage& message);
+std::size_t serialised_bytes(const UpdateMessage& message);
+std::size_t serialised_bytes(const RelativePoseMessage& message);
+std::size_t serialised_bytes(const PoseMessage& message);
+
+/// Whom a message is for.
+const std::string& receiver_of(const PoseMessage& message);
+
+}  // namespace rprr

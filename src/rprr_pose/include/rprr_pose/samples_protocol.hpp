@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_pose/exchange.hpp"
+#include "rprr_pose/sampling.hpp"
+#include "rprr_pose/verification.hpp"
+
+namespace rprr {
+
+/// Settings of the `samples` protocol (the paper's cooperative estimation). Only the reference's
+/// settings shape the estimate; the dependent follows what it is asked.
+struct SamplesOptions {
+  std::string self;                     // this robot
+  std::string peer;                     // the other robot
+  int sample_count = kSampleCount;      // points a robot sends
+  int max_iterations = 50;              // paper
+  double converged_translation = 1e-3;  // metres; ours, those of Lui et al. are not public
+  double converged_rotation = 1e-3;     // rad; likewise
+  bool resample = false;    // new points in every iteration (paper) or one set for an exchange
+  bool by_noise = true;     // see IcpWeights
+  bool local_start = true;  // reference: align b's points alone to Z_a before asking b again
+  VerificationLimits limits;
+  Duration step_timeout = from_seconds(0.5);  // for the peer's answer
+  Duration min_period = 0;                    // reference: between starts of exchanges
+  Duration silence_timeout =
+      from_seconds(1.0);  // dependent: unclaimed frames go out whole after this
+  Duration max_stamp_difference = from_seconds(0.05);  // dependent: between the two robots' frames
+  std::size_t frames_kept = 30;                        // dependent: recent frames to choose from
+  std::uint32_t first_exchange = 1;  // reference: number of the first exchange, not 0
+};
+
+/// Role of a: samples, asks, solves, verifies, publishes the pose.
+std::unique_ptr<ExchangeRole> make_samples_reference(const SamplesOptions& options);
+/// Role of b: answers with its points and its half of the normal equations.
+std::unique_ptr<ExchangeRole> make_samples_dependent(const SamplesOptions& options);
+
+}  // namespace rprr

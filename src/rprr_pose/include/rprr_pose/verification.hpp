@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "rprr_pose/normal_equations.hpp"
+#include "rprr_pose/pose_status.hpp"
+
+namespace rprr {
+
+/// When a pose is believed. A wrong pose is worse than no saving.
+struct VerificationLimits {
+  double min_overlap = 0.25;            // share of sampled points that fall into the other's view
+  double min_consistent = 0.6;          // share of those in view whose depths agree within noise
+  double max_violating = 0.15;          // share of those in view that lie in seen free space
+  int min_matched = 60;                 // correspondences, both ways together
+  double max_sigma_translation = 0.03;  // metres, worst direction of the covariance
+  double max_sigma_rotation = 0.02;     // rad, worst direction
+};
+
+/// Judges the final pose by both halves, each one-way: a scene that hides in one direction shows in
+/// the other. The worse half decides on violations.
+PoseStatus verify(const NormalEquations& at_dependent, const NormalEquations& at_reference,
+                  const VerificationLimits& limits);
+
+}  // namespace rprr

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "peer_cameras.hpp"
+#include "rprr_pose/icp_bd.hpp"
+#include "rprr_pose/samples_protocol.hpp"
+#include "rprr_pose/samples_wire.hpp"
+#include "rprr_pose/update_wire.hpp"
+
+namespace rprr {
+namespace {
+
+class SamplesDependent final : public ExchangeRole {
+ public:
+  explicit SamplesDependent(SamplesOptions options) : options_(std::move(options)) {}
+
+  void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
+    if (!frames_.empty() && frame->stamp < frames_.back()->stamp)
+      frames_.clear();  // time went back
+    frames_.push_back(frame);
+    if (frames_.size() > options_.frames_kept) frames_.pop_front();
+    if (!unclaimed_since_) unclaimed_since_ = now;
+    if (early_ && !exchange_) begin(*std::exchange(early_, std::nullopt), now, out);
+  }
+
+  void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
+    if (receiver_of(message) != options_.self) return;
+    if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
+      on_samples(*samples, now, out);
+    } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
+      on_request(*update, now, out);
+    } else {
+      on_pose(std::get<RelativePoseMessage>(message), now, out);
+    }
+  }
+
+  void tick(Stamp now, RoleOutput& out) override {
+    if (exchange_ && now >= exchange_->deadline) {
+      send_whole("exchange with " + options_.peer + " timed out", now, out);
+    }
+    if (early_ && now >= early_deadline_) early_.reset();
+    if (!exchange_ && unclaimed_since_ && now - *unclaimed_since_ >= options_.silence_timeout) {
+      FrameDecision alone;
+      alone.frame = frames_.back();
+      alone.reason = options_.peer + " is silent";
+      out.decisions.push_back(alone);
+      unclaimed_since_.reset();
+    }
+  }
+
+ private:
+  struct Exchange {
+    std::uint32_t number = 0;
+    PoseFramePtr frame;
+    Stamp deadline = 0;
+    std::uint8_t iteration = 0;
+    std::optional<SampledSurface> a_points;  // of this iteration (resample) or of the exchange
+    std::optional<Camera> a_camera;
+    std::uint32_t bytes = 0;
+  };
+
+  void on_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+    if (exchange_ && message.exchange == exchange_->number)
+      return on_more_samples(message, now, out);
+    if (message.exchange == 0 || message.exchange == last_finished_) return;
+    begin(message, now, out);
+  }
+
+  // A new exchange: find the frame that was taken when a's was, answer with its points.
+  void begin(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+    Result<SamplesContent> content = decode_samples(message.data);
+    if (!content || content->iteration != 0) {
+      if (!content) out.problems.push_back(options_.peer + ": " + content.reason());
+      return;
+    }
+    const PoseFramePtr frame = nearest_frame(message.stamp);
+    if (!frame) {  // it may be about to arrive
+      early_ = message;
+      early_deadline_ = now + options_.step_timeout;
+      return;
+    }
+    if (exchange_) send_whole("a newer exchange with " + options_.peer + " began", now, out);
+    cameras_.learn(*content);
+    exchange_.emplace();
+    exchange_->number = message.exchange;
+    exchange_->frame = frame;
+    exchange_->a_camera = cameras_.find(content->camera_hash);
+    if (exchange_->a_camera) exchange_->a_points = surface_of(*content, *exchange_->a_camera);
+    if (!exchange_->a_points) {
+      out.problems.push_back(options_.peer + ": camera not known, or samples outside of its image");
+    }
+    exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
+    exchange_->deadline = now + options_.step_timeout;
+    unclaimed_since_.reset();
+    send_samples(out);
+    if (early_request_) on_request(*std::exchange(early_request_, std::nullopt), now, out);
+  }
+
+  void on_more_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+    Result<SamplesContent> content = decode_samples(message.data);
+    if (!content) return send_whole(content.reason(), now, out);
+    if (content->iteration != exchange_->iteration + 1) return;
+    exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
+    exchange_->iteration = content->iteration;
+    exchange_->deadline = now + options_.step_timeout;
+    if (exchange_->a_camera) exchange_->a_points = surface_of(*content, *exchange_->a_camera);
+    send_samples(out);
+    if (early_request_) on_request(*std::exchange(early_request_, std::nullopt), now, out);
+  }
+
+  void on_request(const UpdateMessage& message, Stamp now, RoleOutput& out) {
+    if (!exchange_ || message.exchange != exchange_->number) {
+      early_request_ = message;  // topics may overtake each other
+      return;
+    }
+    const Result<PoseRequest> request = decode_request(message.data);
+    if (!request) {
+      out.problems.push_back(options_.peer + ": " + request.reason());
+      return send_whole(request.reason(), now, out);
+    }
+    if (request->points_iteration > exchange_->iteration) {
+      early_request_ = message;
+      return;
+    }
+    if (!exchange_->a_points) return;
+    exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
+    exchange_->deadline = now + options_.step_timeout;
+    const PoseFrame& frame = *exchange_->frame;
+    PoseHalf half;
+    half.iteration = request->iteration;
+    half.equations = half_at_dependent(*exchange_->a_points, frame.depth, frame.camera,
+                                       request->motion, {request->c, request->by_noise});
+    send(UpdateMessage{frame.stamp, options_.peer, exchange_->number, encode_half(half)}, out);
+  }
+
+  void on_pose(const RelativePoseMessage& pose, Stamp now, RoleOutput& out) {
+    if (!exchange_ || pose.exchange != exchange_->number) return;
+    exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(pose));
+    if (pose.status != PoseStatus::kAccepted) {
+      return send_whole("pose rejected: " + std::string(reason_of(pose.status)), now, out);
+    }
+    if (!is_rigid(pose.motion) || !pose.covariance.allFinite() || !exchange_->a_camera) {
+      out.problems.push_back(options_.peer + ": accepted pose that is not a pose");
+      return send_whole("pose could not be read", now, out);
+    }
+    FrameDecision sparse;
+    sparse.action = FrameDecision::Action::kSendSparse;
+    sparse.frame = exchange_->frame;
+    sparse.exchange = exchange_->number;
+    sparse.peer = options_.peer;
+    sparse.pose = pose;
+    sparse.pose.bytes_spent = exchange_->bytes;
+    sparse.peer_camera = exchange_->a_camera;
+    out.decisions.push_back(sparse);
+    close(now);
+  }
+
+  void send_samples(RoleOutput& out) {
+    const PoseFrame& frame = *exchange_->frame;
+    SamplesContent content;
+    content.iteration = exchange_->iteration;
+    cameras_.describe(frame.camera, content);
+    content.with_normals = true;
+    content.unit = frame.depth.unit;
+    content.points = sample_points(frame.depth, frame.camera, options_.sample_count,
+                                   exchange_->number * 64 + exchange_->iteration + 32);
+    send(SamplesMessage{frame.stamp, frame.frame_id, options_.peer, exchange_->number,
+                        encode_samples(content, frame.camera.width, frame.camera.height)},
+         out);
+  }
+
+  void send(PoseMessage message, RoleOutput& out) {
+    exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
+    out.send.push_back(std::move(message));
+  }
+
+  void send_whole(const std::string& reason, Stamp now, RoleOutput& out) {
+    FrameDecision whole;
+    whole.frame = exchange_->frame;
+    whole.exchange = exchange_->number;
+    whole.peer = options_.peer;
+    whole.reason = reason;
+    whole.pose.bytes_spent = exchange_->bytes;
+    out.decisions.push_back(whole);
+    close(now);
+  }
+
+  void close(Stamp now) {
+    last_finished_ = exchange_->number;
+    // Frames that came after the claimed one are still unclaimed.
+    unclaimed_since_.reset();
+    if (!frames_.empty() && frames_.back()->stamp > exchange_->frame->stamp) unclaimed_since_ = now;
+    exchange_.reset();
+  }
+
+  PoseFramePtr nearest_frame(Stamp stamp) const {
+    PoseFramePtr best;
+    Stamp best_difference = options_.max_stamp_difference;
+    for (const PoseFramePtr& frame : frames_) {
+      const Stamp difference = std::abs(frame->stamp - stamp);
+      if (difference > best_difference) continue;
+      best_difference = difference;
+      best = frame;
+    }
+    return best;
+  }
+
+  const SamplesOptions options_;
+  PeerCameras cameras_;
+  std::deque<PoseFramePtr> frames_;
+  std::optional<Exchange> exchange_;
+  std::optional<SamplesMessage> early_;  // a new exchange whose frame is not here yet
+  Stamp early_deadline_ = 0;
+  std::optional<UpdateMessage> early_request_;  // a request that overtook its samples
+  std::optional<Stamp> unclaimed_since_;  // when the first frame came that no exchange claimed
+  std::uint32_t last_finished_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ExchangeRole> make_samples_dependent(const SamplesOptions& options) {
+  return std::make_unique<SamplesDependent>(options);
+}
+
+}  // namespace rprr
