@@ -51,7 +51,7 @@ Material printed(Furnisher& f) {
 }
 
 Material metal(Furnisher& f) {
-  return {Pattern::speckle, srgb(120, 120, 125), srgb(80, 80, 85), f.seed(), 0.5f};
+  return {Pattern::plaster, srgb(125, 126, 130), srgb(80, 80, 85), f.seed(), 0.5f};
 }
 
 Material leaves(Furnisher& f) {
