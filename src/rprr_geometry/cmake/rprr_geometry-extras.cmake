@@ -47,16 +47,20 @@ int main(int argc, char** argv) { return rprr::run_standalone(argc, argv, \"${TY
   install(TARGETS ${NAME} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
-# The nodelet library rprr_<name>_nodelets from the sources given, linked with the package's core, and
-# its install together with nodelet_plugins.xml and config/.
+# The nodelet library rprr_<name>_nodelets from the sources given, linked with the package's core.
 function(rprr_nodelets CORE)
   add_library(${CORE}_nodelets ${ARGN})
   rprr_target(${CORE}_nodelets)
   target_link_libraries(${CORE}_nodelets ${CORE} ${catkin_LIBRARIES})
   add_dependencies(${CORE}_nodelets ${catkin_EXPORTED_TARGETS})
   install(TARGETS ${CORE}_nodelets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-  install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/config)
-    install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-  endif()
+endfunction()
+
+# Links core libraries of other RPRR packages, and nothing of ROS that those packages may also export.
+function(rprr_link_cores TARGET)
+  foreach(core ${ARGN})
+    set(libraries ${${core}_LIBRARIES})
+    list(FILTER libraries INCLUDE REGEX "lib${core}\\.")
+    target_link_libraries(${TARGET} ${libraries})
+  endforeach()
 endfunction()

@@ -50,12 +50,13 @@ void accumulate(const std::vector<Match>& matches, const IcpWeights& weights,
   if (c <= 0.0 && !matches.empty()) c = out.sum_abs_dz / static_cast<double>(matches.size());
   c = std::max(c, kSmallestC);
   for (const Match& match : matches) {
+    const double variance = residual_variance(match);
     double weight = paper_weight(match.a.z(), match.b.z(), c);
     if (weights.by_noise) {
       if ((match.a - match.b).norm() > std::max(kGate * c, kGateFloor)) continue;
-      weight *= 4e-6 / residual_variance(match);
+      weight *= 4e-6 / variance;
     }
-    out.add(match.a, match.b, match.normal, weight);
+    out.add(match.a, match.b, match.normal, weight, variance);
   }
 }
 

@@ -8,6 +8,7 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   ktwy += other.ktwy;
   sum_residual2 += other.sum_residual2;
   sum_weight += other.sum_weight;
+  sum_normalised2 += other.sum_normalised2;
   sum_abs_dz += other.sum_abs_dz;
   points += other.points;
   in_view += other.in_view;
@@ -18,7 +19,7 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
 }
 
 void NormalEquations::add(const Eigen::Vector3d& moved_a, const Eigen::Vector3d& b,
-                          const Eigen::Vector3d& normal_b, double weight) {
+                          const Eigen::Vector3d& normal_b, double weight, double variance) {
   // d(exp(x) p)/dx at x = 0 is [I | -[p]x], so n^T times it is [n^T | (p x n)^T].
   Twist row;
   row.head<3>() = normal_b;
@@ -28,6 +29,7 @@ void NormalEquations::add(const Eigen::Vector3d& moved_a, const Eigen::Vector3d&
   ktwy += weight * y * row;
   sum_residual2 += weight * y * y;
   sum_weight += weight;
+  sum_normalised2 += y * y / variance;
   ++matched;
 }
 

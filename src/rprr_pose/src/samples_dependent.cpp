@@ -152,7 +152,7 @@ class SamplesDependent final : public ExchangeRole {
     sparse.exchange = exchange_->number;
     sparse.peer = options_.peer;
     sparse.pose = pose;
-    sparse.pose.bytes_spent = exchange_->bytes;
+    sparse.exchange_bytes = exchange_->bytes;
     sparse.peer_camera = exchange_->a_camera;
     out.decisions.push_back(sparse);
     close(now);
@@ -183,7 +183,7 @@ class SamplesDependent final : public ExchangeRole {
     whole.exchange = exchange_->number;
     whole.peer = options_.peer;
     whole.reason = reason;
-    whole.pose.bytes_spent = exchange_->bytes;
+    whole.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(whole);
     close(now);
   }

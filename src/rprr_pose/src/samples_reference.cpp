@@ -212,6 +212,7 @@ class SamplesReference final : public ExchangeRole {
     sparse.peer = options_.peer;
     sparse.pose = pose;
     sparse.peer_camera = exchange.b_camera;
+    sparse.exchange_bytes = pose.bytes_spent;
     out.decisions.push_back(sparse);
   }
 

@@ -52,9 +52,10 @@ bool possible(const NormalEquations& e) {
   const bool counts = e.in_view <= e.points && e.matched <= e.in_view &&
                       e.consistent <= e.in_view && e.violating <= e.in_view;
   const bool numbers = e.ktwk.allFinite() && e.ktwy.allFinite() && std::isfinite(e.sum_residual2) &&
-                       std::isfinite(e.sum_weight) && std::isfinite(e.sum_abs_dz);
+                       std::isfinite(e.sum_weight) && std::isfinite(e.sum_normalised2) &&
+                       std::isfinite(e.sum_abs_dz);
   return counts && numbers && e.sum_residual2 >= 0.0 && e.sum_weight >= 0.0 &&
-         e.sum_abs_dz >= 0.0 && e.ktwk.diagonal().minCoeff() >= 0.0;
+         e.sum_normalised2 >= 0.0 && e.sum_abs_dz >= 0.0 && e.ktwk.diagonal().minCoeff() >= 0.0;
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ Bytes encode_half(const PoseHalf& half) {
     for (int j = i; j < 6; ++j) writer.put(static_cast<float>(e.ktwk(i, j)));
   }
   for (int i = 0; i < 6; ++i) writer.put(static_cast<float>(e.ktwy[i]));
-  for (const double sum : {e.sum_residual2, e.sum_weight, e.sum_abs_dz}) {
+  for (const double sum : {e.sum_residual2, e.sum_weight, e.sum_normalised2, e.sum_abs_dz}) {
     writer.put(static_cast<float>(sum));
   }
   for (const std::uint32_t n : {e.points, e.in_view, e.matched, e.consistent, e.violating}) {
@@ -129,7 +130,7 @@ Result<PoseHalf> decode_half(ByteView bytes) {
     }
   }
   for (int i = 0; i < 6; ++i) e.ktwy[i] = static_cast<double>(reader.get<float>());
-  for (double* sum : {&e.sum_residual2, &e.sum_weight, &e.sum_abs_dz}) {
+  for (double* sum : {&e.sum_residual2, &e.sum_weight, &e.sum_normalised2, &e.sum_abs_dz}) {
     *sum = static_cast<double>(reader.get<float>());
   }
   for (std::uint32_t* n : {&e.points, &e.in_view, &e.matched, &e.consistent, &e.violating}) {

@@ -32,6 +32,8 @@ PoseStatus verify(const NormalEquations& at_dependent, const NormalEquations& at
   if (violating > limits.max_violating) return PoseStatus::kFreeSpaceViolated;
   if (share(both.consistent, both.in_view) < limits.min_consistent)
     return PoseStatus::kInconsistent;
+  const double sigmas = std::sqrt(both.sum_normalised2 / both.matched);
+  if (sigmas > limits.max_residual_sigmas) return PoseStatus::kInconsistent;
   const Matrix6 covariance = covariance_of(both);
   if (worst_sigma(covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
       worst_sigma(covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation) {

@@ -23,6 +23,7 @@ struct FrameDecision {
   std::string reason;          // why whole, for people
   RelativePoseMessage pose;    // with kSendSparse
   std::optional<Camera> peer_camera;
+  std::uint32_t exchange_bytes = 0;  // pose messages of the exchange, both ways, serialised
 };
 
 /// What a role wants done after it was given something.

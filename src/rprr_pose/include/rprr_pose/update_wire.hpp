@@ -22,8 +22,8 @@ struct PoseRequest {
   std::uint8_t points_iteration = 0;  // use the points sent in this iteration
 };
 /// Kind 1, from the dependent: upper triangle of K^T W K (21 f32, row by row), K^T W y (6 f32),
-/// sums of w r^2, w and |z_a - z_b| (3 f32), points, in view, matched, consistent, violating (5
-/// u16).
+/// sums of w r^2, w, r^2 / variance and |z_a - z_b| (4 f32), points, in view, matched, consistent,
+/// violating (5 u16).
 struct PoseHalf {
   std::uint8_t iteration = 0;
   NormalEquations equations;

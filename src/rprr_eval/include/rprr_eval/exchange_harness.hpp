@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rprr_pose/exchange.hpp"
+
+namespace rprr {
+
+/// What one exchange between two robots led to.
+struct ExchangeOutcome {
+  std::optional<RelativePoseMessage> pose;    // as the reference ended it; none if it never did
+  std::optional<FrameDecision> at_reference;  // kSendSparse: what to predict for the dependent
+  FrameDecision at_dependent;                 // what becomes of b's frame
+  std::size_t bytes = 0;                      // serialised, both ways
+  int messages = 0;                           // both ways
+  double seconds_compute = 0.0;               // processor time of both roles
+  Duration elapsed = 0;                       // on the simulated clock
+};
+
+/// Two roles tied back to back on a simulated clock: the state machines that the nodelets run,
+/// without ROS. Messages arrive one latency after they were sent, in order.
+class ExchangeHarness {
+ public:
+  ExchangeHarness(std::unique_ptr<ExchangeRole> reference, std::unique_ptr<ExchangeRole> dependent,
+                  Duration one_way_latency);
+
+  /// Gives both robots a frame and lets time pass until b's frame is decided. The roles keep what
+  /// they know between calls, as robots do.
+  ExchangeOutcome run(const PoseFramePtr& a, const PoseFramePtr& b);
+
+ private:
+  struct InFlight {
+    Stamp arrival;
+    bool to_dependent;
+    PoseMessage message;
+  };
+
+  void take(RoleOutput output, bool from_reference, ExchangeOutcome& outcome);
+  template <typename Action>
+  void act(bool at_reference, ExchangeOutcome& outcome, const Action& action);
+
+  std::unique_ptr<ExchangeRole> reference_;
+  std::unique_ptr<ExchangeRole> dependent_;
+  const Duration latency_;
+  Stamp now_ = 0;
+  std::vector<InFlight> channel_;
+  bool decided_ = false;
+};
+
+}  // namespace rprr

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/se3.hpp"
+
+namespace rprr {
+
+/// Peak signal-to-noise ratio of two CV_8UC3 images over all channels, dB, at most 99; over the
+/// pixels where mask (CV_8UC1) is not 0, if one is given. Nothing if no pixel counts.
+std::optional<double> psnr(const cv::Mat& image, const cv::Mat& truth, const cv::Mat& mask = {});
+
+/// Structural similarity (Wang et al. 2004) of the luma: Gaussian window of sigma 1.5, mean over
+/// the image.
+double ssim(const cv::Mat& image, const cv::Mat& truth);
+
+/// Rebuilt depth against b's own, over pixels where b has depth.
+struct DepthQuality {
+  double rmse_mm = 0.0;   // over pixels where both have depth
+  double coverage = 0.0;  // share of b's valid pixels that are rebuilt
+};
+DepthQuality depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth);
+
+/// Share of a's valid block-centre pixels whose surface b sees under the true pose: they project
+/// into b on a valid depth within 2 cm + 1.5% of it.
+double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
+               const Camera& b_camera, const Pose& m_ab);
+
+/// How far an estimate of M_ab is off.
+struct PoseError {
+  double metres = 0.0;  // between the two positions of camera b in a's frame
+  double degrees = 0.0;
+};
+PoseError pose_error(const Pose& estimate, const Pose& truth);
+
+}  // namespace rprr

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rprr_msgs/ExchangeEvent.h>
+#include <rprr_msgs/PoseUpdate.h>
+#include <rprr_msgs/RelativePose.h>
+#include <rprr_msgs/SamplePoints.h>
+
+#include "rprr_pose/exchange.hpp"
+#include "rprr_pose/messages.hpp"
+
+namespace rprr {
+
+/// Core messages <-> what crosses the radio. Nothing is checked here but that enums stay in range:
+/// the roles do not trust what they get.
+rprr_msgs::SamplePoints to_ros(const SamplesMessage& message);
+rprr_msgs::PoseUpdate to_ros(const UpdateMessage& message);
+rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message);
+SamplesMessage from_ros(const rprr_msgs::SamplePoints& message);
+UpdateMessage from_ros(const rprr_msgs::PoseUpdate& message);
+RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message);
+
+/// What the other nodelets of this robot hear. ms is the processor time that the exchange took
+/// here.
+rprr_msgs::ExchangeEvent to_event(const FrameDecision& decision, double ms);
+
+}  // namespace rprr

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+#include <string>
+
+#include "exchange_node.hpp"
+#include "pose_parameters.hpp"
+
+namespace rprr {
+
+/// Role of b, towards the robot ~peer. Parameters: config/pose.yaml.
+class DependentExchangeNodelet : public nodelet::Nodelet {
+  void onInit() override {
+    const ros::NodeHandle& private_nh = getPrivateNodeHandle();
+    const auto robot = private_nh.param<std::string>("robot", "eyebug_b");
+    const auto peer = private_nh.param<std::string>("peer", "eyebug_a");
+    std::map<std::string, std::unique_ptr<ExchangeRole>> roles;
+    roles[peer] = make_samples_dependent(read_samples_options(private_nh, robot, peer));
+    node_ = std::make_unique<ExchangeNode>(getNodeHandle(), private_nh, "dependent exchange", robot,
+                                           std::move(roles), true,
+                                           [](const FrameDecision&, Health&) {});
+  }
+
+  std::unique_ptr<ExchangeNode> node_;
+};
+
+}  // namespace rprr
+
+PLUGINLIB_EXPORT_CLASS(rprr::DependentExchangeNodelet, nodelet::Nodelet)

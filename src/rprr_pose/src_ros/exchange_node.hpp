@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+#include <rprr_msgs/PoseUpdate.h>
+#include <rprr_msgs/RelativePose.h>
+#include <rprr_msgs/SamplePoints.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/rgbd_subscriber.hpp"
+#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_pose/exchange.hpp"
+
+namespace rprr {
+
+/// Ties exchange roles, one for each peer, to topics. The roles belong to the worker thread:
+/// callbacks only hand over what came.
+class ExchangeNode {
+ public:
+  using Observer = std::function<void(const FrameDecision&, Health&)>;
+
+  /// roles by peer. listen_to_poses: whether the peers' relative_pose topics concern this robot.
+  /// The observer is told of every decision, on the worker thread.
+  ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
+               const std::string& robot, std::map<std::string, std::unique_ptr<ExchangeRole>> roles,
+               bool listen_to_poses, Observer observer);
+
+ private:
+  struct Side {
+    std::unique_ptr<ExchangeRole> role;
+    double ms = 0.0;  // processor time of the exchange under way
+  };
+
+  void subscribe(const std::string& peer, bool listen_to_poses);
+  void on_frame(const RgbdFramePtr& frame);
+  template <typename Message>
+  void on_message(const std::string& peer, const boost::shared_ptr<Message const>& message);
+  void drive(const std::string& peer,
+             const std::function<void(ExchangeRole&, RoleOutput&)>& action);
+  void publish(const std::string& peer, const RoleOutput& output, double ms);
+  void publish(const PoseMessage& message);
+
+  ros::NodeHandle nh_;
+  const std::string robot_;
+  Health health_;
+  Observer observer_;
+  std::map<std::string, Side> sides_;  // worker thread only
+  ros::Publisher samples_, update_, pose_, event_;
+  std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+  std::unique_ptr<RgbdSubscriber> input_;
+};
+
+}  // namespace rprr

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_pose_ros/message_conversions.hpp"
+
+#include "rprr_geometry_ros/conversions.hpp"
+
+namespace rprr {
+
+rprr_msgs::SamplePoints to_ros(const SamplesMessage& message) {
+  rprr_msgs::SamplePoints out;
+  out.header.stamp = to_time(message.stamp);
+  out.header.frame_id = message.frame_id;
+  out.receiver = message.receiver;
+  out.exchange = message.exchange;
+  out.data = message.data;
+  return out;
+}
+
+rprr_msgs::PoseUpdate to_ros(const UpdateMessage& message) {
+  rprr_msgs::PoseUpdate out;
+  out.header.stamp = to_time(message.stamp);
+  out.receiver = message.receiver;
+  out.exchange = message.exchange;
+  out.data = message.data;
+  return out;
+}
+
+rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
+  rprr_msgs::RelativePose out;
+  out.header.stamp = to_time(message.stamp);
+  out.header.frame_id = message.frame_id;
+  out.dependent_stamp = to_time(message.dependent_stamp);
+  out.dependent = message.dependent;
+  out.exchange = message.exchange;
+  out.status = static_cast<std::uint8_t>(message.status);
+  pose_to_fields(message.motion, out.translation, out.rotation);
+  std::size_t at = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) out.covariance[at++] = static_cast<float>(message.covariance(i, j));
+  }
+  out.iterations = message.iterations;
+  out.inliers = message.inliers;
+  out.residual = message.residual;
+  out.bytes_spent = message.bytes_spent;
+  return out;
+}
+
+SamplesMessage from_ros(const rprr_msgs::SamplePoints& message) {
+  return {to_stamp(message.header.stamp), message.header.frame_id, message.receiver,
+          message.exchange, message.data};
+}
+
+UpdateMessage from_ros(const rprr_msgs::PoseUpdate& message) {
+  return {to_stamp(message.header.stamp), message.receiver, message.exchange, message.data};
+}
+
+RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
+  RelativePoseMessage out;
+  out.stamp = to_stamp(message.header.stamp);
+  out.frame_id = message.header.frame_id;
+  out.dependent_stamp = to_stamp(message.dependent_stamp);
+  out.dependent = message.dependent;
+  out.exchange = message.exchange;
+  const bool known = message.status <= static_cast<std::uint8_t>(PoseStatus::kMalformed);
+  out.status = known ? static_cast<PoseStatus>(message.status) : PoseStatus::kMalformed;
+  out.motion = pose_from_fields(message.translation, message.rotation);
+  std::size_t at = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) {
+      out.covariance(i, j) = out.covariance(j, i) = static_cast<double>(message.covariance[at++]);
+    }
+  }
+  out.iterations = message.iterations;
+  out.inliers = message.inliers;
+  out.residual = message.residual;
+  out.bytes_spent = message.bytes_spent;
+  return out;
+}
+
+rprr_msgs::ExchangeEvent to_event(const FrameDecision& decision, double ms) {
+  rprr_msgs::ExchangeEvent event;
+  event.header.stamp = to_time(decision.frame->stamp);
+  event.header.frame_id = decision.frame->frame_id;
+  event.action = static_cast<std::uint8_t>(decision.action);
+  event.exchange = decision.exchange;
+  event.peer = decision.peer;
+  event.reason = decision.reason;
+  event.pose = to_ros(decision.pose);
+  if (decision.peer_camera) {
+    ByteWriter writer;
+    put_camera(writer, *decision.peer_camera);
+    event.peer_camera = writer.take();
+  }
+  event.ms_pose = static_cast<float>(ms);
+  event.exchange_bytes = decision.exchange_bytes;
+  return event;
+}
+
+}  // namespace rprr

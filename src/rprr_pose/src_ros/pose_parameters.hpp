@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "rprr_pose/samples_protocol.hpp"
+
+namespace rprr {
+
+/// The private parameters of config/pose.yaml.
+SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std::string& robot,
+                                    const std::string& peer);
+
+}  // namespace rprr
