@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core/types.hpp>
 
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/depth_frame.hpp"
@@ -18,7 +19,7 @@ class DhcmEncoder {
   DhcmEncoder();
   ~DhcmEncoder();
 
-  /// The whole frame, at most 65535 times 65535 pixels of kMaxImageSide a side.
+  /// The whole frame: 1 to kMaxImageSide pixels a side.
   Bytes encode(const DepthFrame& frame);
   /// Only the blocks of the mask, which has the frame's grid; the mask itself is not in the
   /// payload.
@@ -37,6 +38,8 @@ class DhcmDecoder {
   ~DhcmDecoder();
 
   Result<DepthFrame> decode(ByteView payload);
+  /// The same, where another size than the expected one is an error before anything is allocated.
+  Result<DepthFrame> decode(ByteView payload, cv::Size expected);
   /// A payload that was encoded with this mask; pixels of other blocks are 0.
   Result<DepthFrame> decode(ByteView payload, const BlockMask& blocks);
 

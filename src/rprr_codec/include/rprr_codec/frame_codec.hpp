@@ -6,6 +6,7 @@
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
+#include "rprr_codec/fill.hpp"
 
 namespace rprr {
 
@@ -27,15 +28,22 @@ class FrameEncoder {
   static Result<FrameEncoder> create(const FrameCodecOptions& options);
 
   /// Fills depth, colour, colour_codec and the independent bytes and encode time of the report from
-  /// the images; camera, sparse, mask and the rest are the caller's. Errors: image sizes that are
-  /// not the camera's, an encoder that failed.
+  /// the images; camera, sparse, mask and the rest are the caller's. The encode time is that of
+  /// what is sent, without the independent measurement. A sparse frame whose mask has no block gets
+  /// empty payloads. Errors: images or a mask that are not of the camera's size, an encoder that
+  /// failed.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame);
 
  private:
   explicit FrameEncoder(FrameCodecOptions options, std::unique_ptr<ColourEncoder> colour);
+  cv::Mat fill_unsent(const cv::Mat& bgr, const BlockMask& sent);
+  Result<bool> measure_independent(const DepthFrame& depth, const cv::Mat& bgr,
+                                   EncodedFrame& frame);
+
   FrameCodecOptions options_;
   std::unique_ptr<ColourEncoder> colour_;
   std::unique_ptr<DhcmEncoder> depth_;
+  SmoothFill smooth_;
 };
 
 struct DecodedFrame {

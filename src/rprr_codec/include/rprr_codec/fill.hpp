@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "rprr_geometry/block_mask.hpp"
+
+namespace rprr {
+
+/// Colours for the blocks that are not sent, so that an image codec spends little on them: a smooth
+/// (about harmonic) continuation of the sent blocks, by a pyramid and a few relaxation sweeps at
+/// each of its levels. Keeps its buffers between images; one object serves one thread.
+class SmoothFill {
+ public:
+  /// A copy of the 8-bit BGR image in which only pixels outside the mask's blocks differ. The mask
+  /// is of the image's grid. Black where no block at all is sent.
+  cv::Mat fill(const cv::Mat& bgr, const BlockMask& sent);
+
+ private:
+  std::array<cv::Mat, 4> levels_;  // CV_8UC3; level k has cells of 2^k pixels, 3 is a block
+  std::vector<std::uint8_t> scratch_;
+};
+
+/// A copy with all pixels outside the mask's blocks black: the paper's.
+cv::Mat black_fill(const cv::Mat& bgr, const BlockMask& sent);
+
+}  // namespace rprr

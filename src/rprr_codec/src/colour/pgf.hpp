@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "rprr_codec/colour_codec.hpp"
+
+namespace rprr {
+
+/// libpgf's quality scale: 0 lossless, 1 finest.
+constexpr int kPgfMaxQuality = 30;
+
+class PgfEncoder : public ColourEncoder {
+ public:
+  explicit PgfEncoder(int quality) : quality_(quality) {}
+  std::string name() const override { return "pgf"; }
+  Result<Bytes> encode(const cv::Mat& bgr) override;
+
+ private:
+  int quality_;
+};
+
+/// Container of version 1: u8 version, u8 quality, u16 width, u16 height, PGF bytes, u32 CRC-32.
+/// libpgf is not safe against hostile bytes: call it in a process that may die.
+Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected);
+
+}  // namespace rprr

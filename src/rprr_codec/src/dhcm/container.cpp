@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dhcm/container.hpp"
+
+#include <cmath>
+
+#include "rprr_geometry/camera.hpp"
+
+namespace rprr::dhcm {
+namespace {
+
+constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kModeBits = 0x03;
+constexpr std::uint8_t kMasked = 0x04;
+constexpr std::uint8_t kWideUnit = 0x08;  // f64; else f32
+constexpr std::uint8_t kKnownBits = kModeBits | kMasked | kWideUnit;
+constexpr std::size_t kLengthAt = 6;
+
+}  // namespace
+
+void begin(const Header& header, Bytes& out) {
+  const auto narrow = static_cast<float>(header.unit);
+  const bool wide = static_cast<double>(narrow) != header.unit;
+  ByteWriter writer;
+  writer.put(kVersion);
+  writer.put(static_cast<std::uint8_t>(static_cast<std::uint8_t>(header.mode) |
+                                       (header.masked ? kMasked : 0) | (wide ? kWideUnit : 0)));
+  writer.put(static_cast<std::uint16_t>(header.width));
+  writer.put(static_cast<std::uint16_t>(header.height));
+  writer.put(std::uint32_t{0});
+  if (wide) {
+    writer.put(header.unit);
+  } else {
+    writer.put(narrow);
+  }
+  out = writer.take();
+}
+
+void finish(Bytes& out) {
+  const std::size_t head = kLengthAt + 4 + ((out[1] & kWideUnit) != 0 ? 8 : 4);
+  const std::size_t body = out.size() - head;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out[kLengthAt + i] = static_cast<std::uint8_t>(body >> (8 * i));
+  }
+  seal(out);
+}
+
+Result<Opened> open(ByteView payload) {
+  ByteReader reader(unseal(payload));
+  const auto version = reader.get<std::uint8_t>();
+  const auto flags = reader.get<std::uint8_t>();
+  Opened opened;
+  opened.header.width = reader.get<std::uint16_t>();
+  opened.header.height = reader.get<std::uint16_t>();
+  const auto length = reader.get<std::uint32_t>();
+  opened.header.unit =
+      (flags & kWideUnit) != 0 ? reader.get<double>() : static_cast<double>(reader.get<float>());
+  if (!reader.ok()) return Error{"depth payload damaged or cut short"};
+  if (version != kVersion) return Error{"depth payload of an unknown version"};
+  if ((flags & ~kKnownBits) != 0 || (flags & kModeBits) > 1) {
+    return Error{"depth payload in an unknown mode"};
+  }
+  opened.header.mode = static_cast<Mode>(flags & kModeBits);
+  opened.header.masked = (flags & kMasked) != 0;
+  const Header& header = opened.header;
+  if (header.width < 1 || header.height < 1 || header.width > kMaxImageSide ||
+      header.height > kMaxImageSide) {
+    return Error{"depth payload states an impossible image size"};
+  }
+  if (!std::isfinite(header.unit) || !(header.unit > 0.0)) {
+    return Error{"depth payload states an impossible unit"};
+  }
+  if (length != reader.left()) return Error{"depth payload of another length than stated"};
+  opened.body = reader.get_view(length);
+  return opened;
+}
+
+}  // namespace rprr::dhcm

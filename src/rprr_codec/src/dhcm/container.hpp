@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "rprr_geometry/result.hpp"
+#include "rprr_geometry/wire.hpp"
+
+namespace rprr::dhcm {
+
+/// How the pixels are written.
+enum class Mode : std::uint8_t { kStored = 0, kCoded = 1 };
+
+/// What stands before the pixels (doc/dhcm.md).
+struct Header {
+  Mode mode = Mode::kCoded;
+  bool masked = false;  // only the blocks of a mask, which is not in the payload
+  int width = 0;
+  int height = 0;
+  double unit = 0.001;
+};
+
+/// Writes the header with room for the length of the body, which is appended by the caller.
+void begin(const Header& header, Bytes& out);
+/// Fills in the body's length and seals the payload.
+void finish(Bytes& out);
+
+struct Opened {
+  Header header;
+  ByteView body;
+};
+/// Checks seal, version, sizes and lengths.
+Result<Opened> open(ByteView payload);
+
+}  // namespace rprr::dhcm

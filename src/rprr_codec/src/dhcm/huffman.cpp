@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dhcm/huffman.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace rprr::dhcm {
+namespace {
+
+constexpr int kFirstLength = 2;  // what the list of lengths starts from
+constexpr std::uint32_t kKraftOne = 1u << kMaxCodeLength;
+
+std::uint32_t kraft_sum(const CodeLengths& lengths) {
+  std::uint32_t sum = 0;
+  for (const std::uint8_t length : lengths) {
+    if (length > 0) sum += kKraftOne >> length;
+  }
+  return sum;
+}
+
+// Moffat and Katajainen's in-place calculation: sorted counts in, lengths in the same order out.
+void minimum_redundancy(std::uint32_t* a, int n) {
+  int root = 0;
+  int leaf = 2;
+  a[0] += a[1];
+  for (int next = 1; next < n - 1; ++next) {
+    if (leaf >= n || a[root] < a[leaf]) {
+      a[next] = a[root];
+      a[root++] = static_cast<std::uint32_t>(next);
+    } else {
+      a[next] = a[leaf++];
+    }
+    if (leaf >= n || (root < next && a[root] < a[leaf])) {
+      a[next] += a[root];
+      a[root++] = static_cast<std::uint32_t>(next);
+    } else {
+      a[next] += a[leaf++];
+    }
+  }
+  a[n - 2] = 0;
+  for (int next = n - 3; next >= 0; --next) a[next] = a[a[next]] + 1;
+  int available = 1;
+  int used = 0;
+  std::uint32_t depth = 0;
+  root = n - 2;
+  int next = n - 1;
+  while (available > 0) {
+    while (root >= 0 && a[root] == depth) {
+      ++used;
+      --root;
+    }
+    while (available > used) {
+      a[next--] = depth;
+      --available;
+    }
+    available = 2 * used;
+    ++depth;
+    used = 0;
+  }
+}
+
+// Shortens the code space that too long words were cut to: lengthens the rarest shorter words until
+// the words fit, then gives back what is left over to the most frequent that can take it.
+void limit_lengths(const std::array<std::uint8_t, kSymbols>& rarest_first, int count,
+                   CodeLengths& lengths) {
+  for (auto& length : lengths) length = std::min<std::uint8_t>(length, kMaxCodeLength);
+  std::uint32_t sum = kraft_sum(lengths);
+  for (int i = 0; i < count && sum > kKraftOne;) {
+    auto& length = lengths[rarest_first[static_cast<std::size_t>(i)]];
+    if (length < kMaxCodeLength) {
+      ++length;
+      sum -= kKraftOne >> length;
+    } else {
+      ++i;
+    }
+  }
+  for (int i = count - 1; i >= 0; --i) {
+    auto& length = lengths[rarest_first[static_cast<std::size_t>(i)]];
+    while (length > 1 && sum + (kKraftOne >> length) <= kKraftOne) {
+      sum += kKraftOne >> length;
+      --length;
+    }
+  }
+}
+
+std::uint32_t reversed(std::uint32_t code, int length) {
+  std::uint32_t out = 0;
+  for (int i = 0; i < length; ++i) out |= (code >> i & 1u) << (length - 1 - i);
+  return out;
+}
+
+// Canonical code words: shorter first, and by symbol within a length.
+template <typename Visit>
+void for_each_word(const CodeLengths& lengths, const Visit& visit) {
+  std::uint32_t code = 0;
+  for (int length = 1; length <= kMaxCodeLength; ++length) {
+    for (int symbol = 0; symbol < kSymbols; ++symbol) {
+      if (lengths[static_cast<std::size_t>(symbol)] != length) continue;
+      visit(symbol, reversed(code, length), length);
+      ++code;
+    }
+    code <<= 1;
+  }
+}
+
+int used_symbols(const CodeLengths& lengths) {
+  return static_cast<int>(std::count_if(lengths.begin(), lengths.end(),
+                                        [](std::uint8_t length) { return length > 0; }));
+}
+
+}  // namespace
+
+CodeLengths code_lengths(const Histogram& histogram) {
+  std::array<std::uint8_t, kSymbols> order{};
+  int count = 0;
+  for (int symbol = 0; symbol < kSymbols; ++symbol) {
+    if (histogram[static_cast<std::size_t>(symbol)] > 0) {
+      order[static_cast<std::size_t>(count++)] = static_cast<std::uint8_t>(symbol);
+    }
+  }
+  CodeLengths lengths{};
+  if (count == 0) return lengths;
+  if (count == 1) {
+    lengths[order[0]] = 1;
+    return lengths;
+  }
+  std::stable_sort(order.begin(), order.begin() + count,
+                   [&](std::uint8_t a, std::uint8_t b) { return histogram[a] < histogram[b]; });
+  std::array<std::uint32_t, kSymbols> work{};
+  for (int i = 0; i < count; ++i) {
+    work[static_cast<std::size_t>(i)] = histogram[order[static_cast<std::size_t>(i)]];
+  }
+  minimum_redundancy(work.data(), count);
+  for (int i = 0; i < count; ++i) {
+    lengths[order[static_cast<std::size_t>(i)]] =
+        static_cast<std::uint8_t>(std::min(work[static_cast<std::size_t>(i)], 255u));
+  }
+  limit_lengths(order, count, lengths);
+  return lengths;
+}
+
+EncodeTable::EncodeTable(const CodeLengths& lengths) {
+  if (used_symbols(lengths) <= 1) return;
+  for_each_word(lengths, [&](int symbol, std::uint32_t code, int length) {
+    words[static_cast<std::size_t>(symbol)] = {static_cast<std::uint16_t>(code),
+                                               static_cast<std::uint8_t>(length)};
+  });
+}
+
+bool DecodeTable::build(const CodeLengths& lengths) {
+  const int used = used_symbols(lengths);
+  if (used <= 1) {
+    std::uint8_t symbol = 0;
+    for (int s = 0; s < kSymbols; ++s) {
+      if (lengths[static_cast<std::size_t>(s)] > 1) return false;
+      if (lengths[static_cast<std::size_t>(s)] == 1) symbol = static_cast<std::uint8_t>(s);
+    }
+    entries.fill({symbol, 0});
+    return true;
+  }
+  if (kraft_sum(lengths) != kKraftOne) return false;
+  for_each_word(lengths, [&](int symbol, std::uint32_t code, int length) {
+    const Entry entry = {static_cast<std::uint8_t>(symbol), static_cast<std::uint8_t>(length)};
+    for (std::uint32_t i = code; i < kKraftOne; i += 1u << length) entries[i] = entry;
+  });
+  return true;
+}
+
+namespace {
+
+// Lengths are listed up to the last symbol that occurs. They mostly stay or grow by one from symbol
+// to symbol, which takes one or two bits: 0 as before, 10 one more, 110 one less, 1110 does not
+// occur, 1111 and the length in four bits.
+template <typename Put>
+void list_lengths(const CodeLengths& lengths, const Put& put) {
+  int last = kSymbols;
+  while (last > 0 && lengths[static_cast<std::size_t>(last - 1)] == 0) --last;
+  put(static_cast<std::uint32_t>(last), 6);
+  int before = kFirstLength;
+  for (int i = 0; i < last; ++i) {
+    const int length = lengths[static_cast<std::size_t>(i)];
+    if (length == 0) {
+      put(0b0111, 4);
+      continue;
+    }
+    if (length == before) {
+      put(0b0, 1);
+    } else if (length == before + 1) {
+      put(0b01, 2);
+    } else if (length == before - 1) {
+      put(0b011, 3);
+    } else {
+      put(0b1111 | static_cast<std::uint32_t>(length) << 4, 8);
+    }
+    before = length;
+  }
+}
+
+// False where the bits do not state a possible length.
+bool read_length(BitReader& bits, int& before, std::uint8_t& length) {
+  int next = before;
+  if (bits.get(1) != 0) {
+    if (bits.get(1) == 0) {
+      next = before + 1;
+    } else if (bits.get(1) == 0) {
+      next = before - 1;
+    } else if (bits.get(1) == 0) {
+      length = 0;
+      return true;
+    } else {
+      next = static_cast<int>(bits.get(4));
+    }
+  }
+  if (next < 1 || next > kMaxCodeLength) return false;
+  before = next;
+  length = static_cast<std::uint8_t>(next);
+  return true;
+}
+
+}  // namespace
+
+int list_bits(const CodeLengths& lengths) {
+  int sum = 0;
+  list_lengths(lengths, [&](std::uint32_t, int count) { sum += count; });
+  return sum;
+}
+
+void write_lengths(const CodeLengths& lengths, BitWriter& bits) {
+  list_lengths(lengths, [&](std::uint32_t value, int count) { bits.put(value, count); });
+}
+
+bool read_lengths(BitReader& bits, CodeLengths& lengths) {
+  lengths.fill(0);
+  const std::uint32_t last = bits.get(6);
+  if (last > kSymbols) return false;
+  int before = kFirstLength;
+  for (std::uint32_t i = 0; i < last; ++i) {
+    if (!read_length(bits, before, lengths[i])) return false;
+  }
+  return !bits.overrun();
+}
+
+}  // namespace rprr::dhcm
