@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dhcm/bit_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace rprr::dhcm {
+namespace {
+
+TEST(BitIo, WhatIsPutIsGotAndTheEndIsKnown) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<std::pair<std::uint32_t, int>> numbers;
+    Bytes bytes;
+    BitWriter writer(bytes);
+    for (std::uint32_t i = 0; i < 1 + random() % 60; ++i) {
+      const int count = static_cast<int>(random() % 33);
+      const auto value = static_cast<std::uint32_t>(random() & ((std::uint64_t{1} << count) - 1));
+      numbers.emplace_back(value, count);
+      writer.put(value, count);
+    }
+    writer.finish();
+    BitReader reader(bytes);
+    for (const auto& [value, count] : numbers) ASSERT_EQ(reader.get(count), value);
+    EXPECT_TRUE(reader.finished());
+    EXPECT_FALSE(reader.overrun());
+    reader.get(8);
+    EXPECT_TRUE(reader.overrun());
+    EXPECT_FALSE(reader.finished());
+  }
+}
+
+TEST(BitIo, PastTheEndThereAreZeros) {
+  const Bytes bytes = {0xFF, 0xFF};
+  BitReader reader(bytes);
+  EXPECT_EQ(reader.get(16), 0xFFFFu);
+  EXPECT_FALSE(reader.overrun());
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(reader.get(32), 0u);
+  EXPECT_TRUE(reader.overrun());
+}
+
+TEST(BitIo, LeftOverBytesAreNoticed) {
+  const Bytes bytes(20, 0);
+  BitReader reader(bytes);
+  for (int i = 0; i < 19; ++i) {
+    EXPECT_FALSE(reader.finished()) << i;
+    reader.get(8);
+  }
+  reader.get(1);
+  EXPECT_TRUE(reader.finished());
+}
+
+}  // namespace
+}  // namespace rprr::dhcm

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_codec/encoded_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "synthetic.hpp"
+
+namespace rprr {
+namespace {
+
+EncodedFrame example(bool sparse) {
+  EncodedFrame frame;
+  frame.camera = rounded_for_wire({640, 480, 525.1, 525.3, 319.5, 239.5});
+  frame.sparse = sparse;
+  frame.depth = {1, 2, 3, 4, 5};
+  frame.colour_codec = "pgf";
+  frame.colour = {9, 8, 7};
+  frame.report = {100, 20, 3000, 400, 50000, 60000, 11.5f, 2.25f, 3.0f, 14.75f};
+  if (sparse) {
+    frame.reference = "eyebug_a";
+    frame.reference_stamp = 1234567890123456789;
+    frame.motion = exp_se3((Twist() << 0.1, -0.2, 0.3, 0.05, 0.4, -0.02).finished());
+    frame.mask = synthetic::some_blocks(BlockGrid(640, 480), 0.3);
+  }
+  return frame;
+}
+
+TEST(EncodedFrame, ComesBack) {
+  for (const bool sparse : {false, true}) {
+    const EncodedFrame frame = example(sparse);
+    const Result<EncodedFrame> back = parse_encoded_frame(serialise(frame));
+    ASSERT_TRUE(back) << back.reason();
+    EXPECT_EQ(back->camera.fx, frame.camera.fx);
+    EXPECT_EQ(back->camera.width, 640);
+    EXPECT_EQ(back->sparse, sparse);
+    EXPECT_EQ(back->reference, frame.reference);
+    EXPECT_EQ(back->reference_stamp, frame.reference_stamp);
+    EXPECT_LT((back->motion.matrix() - frame.motion.matrix()).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_TRUE(back->mask == frame.mask);
+    EXPECT_EQ(back->depth, frame.depth);
+    EXPECT_EQ(back->colour, frame.colour);
+    EXPECT_EQ(back->colour_codec, "pgf");
+    EXPECT_EQ(back->report.blocks_validated, 20);
+    EXPECT_EQ(back->report.independent_bytes_colour, 60000u);
+    EXPECT_EQ(back->report.ms_encode, 14.75f);
+  }
+}
+
+TEST(EncodedFrame, SizesAddUpOnBothSides) {
+  for (const bool sparse : {false, true}) {
+    const EncodedFrame frame = example(sparse);
+    EncodedSizes sent;
+    EncodedSizes received;
+    const Bytes bytes = serialise(frame, &sent);
+    ASSERT_TRUE(parse_encoded_frame(bytes, &received));
+    EXPECT_EQ(sent.total, bytes.size());
+    EXPECT_EQ(sent.depth, 5u);
+    EXPECT_EQ(sent.colour, 3u);
+    EXPECT_EQ(sent.mask, sparse ? encode_mask(frame.mask).size() : 0u);
+    EXPECT_EQ(sent.mask + sent.depth + sent.colour + sent.extras, sent.total);
+    EXPECT_EQ(received.extras, sent.extras);
+    EXPECT_EQ(received.mask, sent.mask);
+    EXPECT_EQ(received.total, sent.total);
+    EXPECT_LT(sent.extras, 180u);
+  }
+}
+
+TEST(EncodedFrame, CutsAndFlipsAreErrors) {
+  const Bytes bytes = serialise(example(true));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(parse_encoded_frame(ByteView(bytes).first(size))) << "cut to " << size;
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    Bytes damaged = bytes;
+    damaged[i] ^= 0x20;
+    EXPECT_FALSE(parse_encoded_frame(damaged)) << "byte " << i;
+  }
+}
+
+TEST(EncodedFrame, WhatMakesNoSenseIsRefusedThoughSealed) {
+  const auto refused = [](auto change, const std::string& what) {
+    EncodedFrame frame = example(true);
+    change(frame);
+    EXPECT_FALSE(parse_encoded_frame(serialise(frame))) << what;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([&](EncodedFrame& f) { f.motion.translation().x() = nan; }, "translation of NaN");
+  refused([&](EncodedFrame& f) { f.motion.translation().x() = 1e300; }, "translation out of space");
+  refused([&](EncodedFrame& f) { f.motion.matrix().setConstant(nan); }, "motion of NaN");
+  refused([](EncodedFrame& f) { f.camera.fx = -1.0; }, "negative focal length");
+  refused([](EncodedFrame& f) { f.camera.width = 0; }, "no width");
+  refused([](EncodedFrame& f) { f.camera.width = 648; }, "mask of another grid");
+  refused([](EncodedFrame& f) { f.reference.clear(); }, "no reference");
+  refused([](EncodedFrame& f) { f.reference = "a b\n"; }, "unprintable reference");
+  refused([](EncodedFrame& f) { f.colour_codec = "\x01"; }, "unprintable codec");
+  refused([&](EncodedFrame& f) { f.report.ms_pose = std::nanf(""); }, "time of NaN");
+}
+
+TEST(EncodedFrame, LongNamesAreRefusedBeforeTheyAreCopied) {
+  Bytes bytes = serialise(example(true));
+  bytes.resize(bytes.size() - 4);
+  bytes[22] = 200;  // length of the reference
+  seal(bytes);
+  EXPECT_FALSE(parse_encoded_frame(bytes));
+}
+
+TEST(EncodedFrame, HostileBytesWithAValidChecksumNeverCrash) {
+  std::mt19937 random(5);
+  const Bytes good = serialise(example(true));
+  for (int trial = 0; trial < 20000; ++trial) {
+    Bytes bytes(good.begin(), good.end() - 4);
+    for (std::uint32_t i = 0; i <= random() % 3; ++i) {
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    }
+    if (trial % 5 == 0) bytes.resize(random() % bytes.size());
+    seal(bytes);
+    const Result<EncodedFrame> frame = parse_encoded_frame(bytes);
+    if (!frame) continue;
+    EXPECT_TRUE(frame->camera.valid());
+    EXPECT_TRUE(is_rigid(frame->motion));
+    EXPECT_LE(frame->reference.size(), 64u);
+  }
+}
+
+}  // namespace
+}  // namespace rprr
