@@ -123,7 +123,7 @@ DepthFrame sense_depth(const ExactView& view, const Camera& camera, const DepthS
     for (int u = 0; u < size.width; ++u) {
       const float z = metres.at<float>(v, u);
       const float n = noise.at<float>(v, u);
-      if (z <= 0.0f || view.infrared.at<float>(v, u) + 0.03f * n < model.least_infrared) continue;
+      if (z <= 0.0f || view.infrared.at<float>(v, u) + 0.02f * n < model.least_infrared) continue;
       frame.counts.at<std::uint16_t>(v, u) = quantised(z, n, model);
     }
   }
@@ -157,6 +157,37 @@ cv::Mat sense_colour(const ExactView& view, const ColourSensorModel& model, std:
     }
   }
   return image;
+}
+
+RgbdImage sense(const Scene& scene, const SensorModel& sensor, const Pose& world_from_camera,
+                std::uint32_t seed) {
+  const ExactView view = scene.render(sensor.camera, world_from_camera);
+  return {sense_colour(view, sensor.colour, seed),
+          sense_depth(view, sensor.camera, sensor.depth, seed)};
+}
+
+SensorModel example_sensor_a(int width, int height) {
+  const double scale = width / 640.0;
+  SensorModel sensor;
+  sensor.camera = {
+      width, height, 525.0 * scale, 525.0 * scale, 0.5 * width - 0.5, 0.5 * height - 0.5};
+  sensor.colour.exposure = 1.05;
+  return sensor;
+}
+
+SensorModel example_sensor_b(int width, int height) {
+  const double scale = width / 640.0;
+  SensorModel sensor;
+  sensor.camera = {width,
+                   height,
+                   531.5 * scale,
+                   530.0 * scale,
+                   0.5 * width + 3.2 * scale,
+                   0.5 * height - 4.7 * scale};
+  sensor.colour.exposure = 0.92;
+  sensor.colour.gain = {0.95, 1.0, 1.06};
+  sensor.colour.vignetting = 0.2;
+  return sensor;
 }
 
 }  // namespace rprr

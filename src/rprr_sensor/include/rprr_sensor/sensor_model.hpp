@@ -7,6 +7,7 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
+#include "rprr_sensor/rgbd_image.hpp"
 #include "rprr_sensor/synthetic_scene.hpp"
 
 namespace rprr {
@@ -40,5 +41,21 @@ DepthFrame sense_depth(const ExactView& view, const Camera& camera, const DepthS
 
 /// Colour as the sensor gives it, CV_8UC3 (BGR, gamma-coded). Deterministic likewise.
 cv::Mat sense_colour(const ExactView& view, const ColourSensorModel& model, std::uint32_t seed);
+
+/// An RGB-D camera: its geometry and its faults.
+struct SensorModel {
+  Camera camera;
+  DepthSensorModel depth;
+  ColourSensorModel colour;
+};
+
+/// What the sensor delivers at world_from_camera.
+RgbdImage sense(const Scene& scene, const SensorModel& sensor, const Pose& world_from_camera,
+                std::uint32_t seed);
+
+/// Two sensors that differ as two cheap cameras do: focal length, centre, exposure, white balance.
+/// Intrinsics scale with the width; pixels are square.
+SensorModel example_sensor_a(int width = 640, int height = 480);
+SensorModel example_sensor_b(int width = 640, int height = 480);
 
 }  // namespace rprr

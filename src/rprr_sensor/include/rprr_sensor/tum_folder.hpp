@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <opencv2/core/mat.hpp>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rprr_geometry/camera.hpp"
-#include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_sensor/rgbd_image.hpp"
 
 namespace rprr {
 
@@ -21,12 +21,6 @@ struct RgbdEntry {
   std::string colour_path;                // absolute, or relative to the working directory
   std::string depth_path;                 // likewise
   std::optional<Pose> world_from_camera;  // optical frame into the world, where known
-};
-
-/// The pixels of an entry, sizes checked against the folder's camera.
-struct RgbdImage {
-  cv::Mat bgr;  // CV_8UC3
-  DepthFrame depth;
 };
 
 struct TumFolderOptions {
