@@ -3,28 +3,10 @@
 
 #include <algorithm>
 
+#include "rprr_geometry/pixel_map.hpp"
+
 namespace rprr {
 namespace {
-
-// The same limit as warp_depth(): a point nearer to a's camera plane is behind its camera.
-constexpr float kNearest = 0.05f;
-
-// K_a M_ab^-1 (z K_b^-1 [u v 1], 1) is z (map [u v 1]) + offset, with z in counts: homogeneous
-// pixel of a, third component the depth in a.
-struct Homography {
-  Eigen::Matrix3d map;
-  Eigen::Vector3f offset;
-
-  Homography(const Camera& from, const Camera& to, const Pose& motion, double unit) {
-    Eigen::Matrix3d to_k;
-    to_k << to.fx, 0, to.cx, 0, to.fy, to.cy, 0, 0, 1;
-    Eigen::Matrix3d from_k_inverse;
-    from_k_inverse << 1 / from.fx, 0, -from.cx / from.fx, 0, 1 / from.fy, -from.cy / from.fy, 0, 0,
-        1;
-    map = to_k * motion.linear() * from_k_inverse * unit;
-    offset = (to_k * motion.translation()).cast<float>();
-  }
-};
 
 // Flags the valid pixels of a row that leave the target's image. Multiplied out by the depth in the
 // target, so that the loop has neither division nor branch and the compiler can vectorise it.
@@ -48,7 +30,7 @@ void flag_outside(const std::uint16_t* counts, int width, const Eigen::Vector3f&
     const float w = z * (sz + column * dz) + oz;
     const float x = z * (sx + column * dx) + ox + 0.5f * w;
     const float y = z * (sy + column * dy) + oy + 0.5f * w;
-    const int inside = static_cast<int>(w >= kNearest) & static_cast<int>(x >= 0.0f) &
+    const int inside = static_cast<int>(w >= kNearestDepth) & static_cast<int>(x >= 0.0f) &
                        static_cast<int>(y >= 0.0f) & static_cast<int>(x < right * w) &
                        static_cast<int>(y < bottom * w);
     outside[u] = static_cast<std::uint8_t>(static_cast<int>(counts[u] != 0) & (inside ^ 1));
@@ -63,16 +45,14 @@ BlockMask Validator::validate(const DepthFrame& b, const Camera& b_camera, const
   BlockMask mask(grid);
   if (b.empty() || b.width() != b_camera.width || b.height() != b_camera.height) return mask;
 
-  const Homography to_a(b_camera, a_camera, m_ab.inverse(), b.unit);
-  const Eigen::Vector3f step = to_a.map.col(0).cast<float>();
+  const PixelMap to_a(b_camera, a_camera, m_ab.inverse(), b.unit);
   outside_.resize(static_cast<std::size_t>(grid.columns) * kBlockSide);
   std::fill(outside_.begin(), outside_.end(), std::uint8_t{0});
   for (int block_row = 0; block_row < grid.rows; ++block_row) {
     outside_in_block_.assign(static_cast<std::size_t>(grid.columns), 0);
     const int end = std::min((block_row + 1) * kBlockSide, grid.height);
     for (int v = block_row * kBlockSide; v < end; ++v) {
-      const Eigen::Vector3f row_start = (to_a.map.col(1) * v + to_a.map.col(2)).cast<float>();
-      flag_outside(b.counts.ptr<std::uint16_t>(v), grid.width, row_start, step, to_a.offset,
+      flag_outside(b.counts.ptr<std::uint16_t>(v), grid.width, to_a.row(v), to_a.step, to_a.offset,
                    a_camera, outside_.data());
       const std::uint8_t* flags = outside_.data();
       for (int& outside : outside_in_block_) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace rprr {
+
+/// Where a pixel of a rebuilt view comes from. The values are grey levels, so that an image of them
+/// (CV_8UC1, mono8) can be looked at: the brighter, the better founded.
+enum Provenance : std::uint8_t {
+  kNothing = 0,      // nobody saw it: black, no depth
+  kFilled = 64,      // colour spread smoothly from the neighbourhood; no depth
+  kMended = 128,     // predicted, depth from the neighbours (crack or ghost)
+  kPredicted = 192,  // warped from the reference frame
+  kReceived = 255,   // sent by the robot itself
+};
+
+}  // namespace rprr
