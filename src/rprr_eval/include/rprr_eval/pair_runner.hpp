@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "rprr_eval/exchange_harness.hpp"
+#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/profile.hpp"
+#include "rprr_geometry/result.hpp"
+#include "rprr_redundancy/prediction.hpp"
+#include "rprr_sensor/tum_folder.hpp"
+
+namespace rprr {
+
+/// One pair through the whole scheme: the object that `rprr_eval pairs` writes (field names are
+/// fixed).
+struct PairResult {
+  std::size_t a = 0, b = 0;  // entries of the folder
+  ExchangeOutcome exchange;
+  std::optional<PoseError> pose_error;  // where poses are known
+  std::optional<double> overlap;
+  RebuiltFrame rebuilt;
+  int blocks_predicted = 0, blocks_validated = 0;
+  EncodedSizes independent;  // of b's whole frame; total with the message around it
+  double psnr = 0.0, ssim = 0.0;
+  std::optional<double> psnr_predicted;
+  double independent_psnr = 0.0, independent_ssim = 0.0;
+  DepthQuality depth;
+  bool depth_exact = false;  // received blocks equal b's own counts
+  double ms_predict = 0.0, ms_validate = 0.0;
+};
+
+nlohmann::json to_json(const PairResult& result);
+
+/// Two robots and a station in one process, without ROS: the state machines and codecs that the
+/// nodelets run. Robots keep between pairs what they learn of each other.
+class PairRunner {
+ public:
+  /// Errors: what a codec refuses.
+  static Result<PairRunner> create(const Profile& profile);
+
+  /// Entry a of the folder as the reference's frame, entry b as the dependent's. Errors: images
+  /// that cannot be read, a station that rebuilt nothing.
+  Result<PairResult> run(const TumFolder& folder, std::size_t a, std::size_t b);
+
+ private:
+  struct Robots;
+  explicit PairRunner(std::unique_ptr<Robots> robots);
+
+ public:
+  PairRunner(PairRunner&&) noexcept;
+  PairRunner& operator=(PairRunner&&) noexcept;
+  ~PairRunner();
+
+ private:
+  std::unique_ptr<Robots> robots_;
+};
+
+}  // namespace rprr

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace rprr {
+
+/// Each adds a subcommand; what it runs sets exit_code.
+void add_pairs_command(CLI::App& app, int& exit_code);
+void add_codec_command(CLI::App& app, int& exit_code);
+
+}  // namespace rprr

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "RPRR measured without ROS: the same state machines and codecs that the nodelets run");
+  app.require_subcommand(1);
+  int exit_code = 0;
+  rprr::add_pairs_command(app, exit_code);
+  rprr::add_codec_command(app, exit_code);
+  CLI11_PARSE(app, argc, argv);
+  return exit_code;
+}

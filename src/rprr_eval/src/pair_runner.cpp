@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_eval/pair_runner.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "rprr_redundancy/outgoing.hpp"
+#include "rprr_sensor/motion.hpp"
+#include "rprr_station/provenance.hpp"
+
+namespace rprr {
+namespace {
+
+const std::string kA = "eyebug_a";
+const std::string kB = "eyebug_b";
+const std::string kFrameA = kA + "_rgb_optical_frame";
+const std::string kFrameB = kB + "_rgb_optical_frame";
+constexpr Duration kLatency = from_seconds(0.005);
+
+template <typename Action>
+double milliseconds(const Action& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+PoseFramePtr pose_frame(const RgbdImage& image, const Camera& camera, Stamp stamp,
+                        const std::string& frame_id) {
+  auto frame = std::make_shared<PoseFrame>();
+  frame->stamp = stamp;
+  frame->frame_id = frame_id;
+  frame->camera = camera;
+  frame->depth = image.depth;
+  frame->bgr = image.bgr;
+  return frame;
+}
+
+bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& truth) {
+  for (int v = 0; v < truth.height(); ++v) {
+    for (int u = 0; u < truth.width(); ++u) {
+      if (rebuilt.provenance.at<std::uint8_t>(v, u) != kReceived) continue;
+      if (rebuilt.depth.counts.at<std::uint16_t>(v, u) != truth.counts.at<std::uint16_t>(v, u)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+struct PairRunner::Robots {
+  Robots(const Profile& profile, FrameEncoder frame_encoder)
+      : harness(make_samples_reference(options(profile.pose, kA, kB)),
+                make_samples_dependent(options(profile.pose, kB, kA)), kLatency),
+        validator(profile.validation),
+        outgoing(kB),
+        encoder(std::move(frame_encoder)),
+        independent_decoder(make_local_colour_decoder()),
+        station(station_options(profile.station), make_isolated_colour_decoder()) {}
+
+  static SamplesOptions options(SamplesOptions options, const std::string& self,
+                                const std::string& peer) {
+    options.self = self;
+    options.peer = peer;
+    return options;
+  }
+  static StationOptions station_options(StationOptions options) {
+    options.robots = {kA, kB};
+    return options;
+  }
+
+  ExchangeHarness harness;
+  Predictor predictor;
+  Validator validator;
+  Outgoing outgoing;
+  FrameEncoder encoder;
+  FrameDecoder independent_decoder;
+  Station station;
+  Stamp now = from_seconds(1000.0);
+};
+
+namespace {
+
+// What b sends, decided by b's own state machine from the exchange and a's prediction.
+OutgoingDecision decide(PairResult& result, const PoseFramePtr& a, const PoseFramePtr& b,
+                        Predictor& predictor, Validator& validator, Outgoing& outgoing, Stamp now) {
+  const FrameDecision& at_b = result.exchange.at_dependent;
+  if (at_b.action != FrameDecision::Action::kSendSparse || !result.exchange.at_reference) {
+    const auto decisions = outgoing.whole(b->stamp, at_b.exchange, at_b.reason);
+    return decisions.empty() ? OutgoingDecision{} : decisions.front();
+  }
+  Bytes mask;
+  result.ms_predict = milliseconds([&] {
+    mask = encode_mask(predictor.predict(a->depth, a->camera,
+                                         *result.exchange.at_reference->peer_camera,
+                                         result.exchange.at_reference->pose.motion));
+  });
+  BlockMask validated;
+  result.ms_validate = milliseconds([&] {
+    validated = validator.validate(b->depth, b->camera, *at_b.peer_camera, at_b.pose.motion);
+  });
+  auto decisions = outgoing.accepted(b->stamp, at_b.exchange, validated, now);
+  const auto more = outgoing.prediction({kB, at_b.exchange, b->stamp, mask, 0}, now);
+  decisions.insert(decisions.end(), more.begin(), more.end());
+  return decisions.empty() ? OutgoingDecision{} : decisions.front();
+}
+
+EncodedFrame frame_to_encode(const PoseFrame& b, const FrameDecision& at_b,
+                             const OutgoingDecision& decision, const PairResult& result) {
+  EncodedFrame encoded;
+  encoded.camera = b.camera;
+  encoded.sparse = decision.sparse;
+  if (decision.sparse) {
+    encoded.reference = kA;
+    encoded.reference_stamp = at_b.pose.stamp;
+    encoded.motion = at_b.pose.motion;
+    encoded.mask = decision.mask;
+  }
+  FrameReport& report = encoded.report;
+  report.blocks_predicted = static_cast<std::uint16_t>(decision.blocks_predicted);
+  report.blocks_validated = static_cast<std::uint16_t>(decision.blocks_validated);
+  report.bytes_pose = static_cast<std::uint32_t>(result.exchange.bytes);
+  report.bytes_masks = static_cast<std::uint32_t>(decision.message_bytes);
+  report.ms_pose = static_cast<float>(result.exchange.seconds_compute * 1e3);
+  report.ms_predict = static_cast<float>(result.ms_predict);
+  report.ms_validate = static_cast<float>(result.ms_validate);
+  return encoded;
+}
+
+std::string send(const EncodedFrame& encoded, const PoseFrame& frame, const std::string& robot,
+                 std::uint32_t exchange, Station& station, Stamp now,
+                 std::optional<RebuiltFrame>& out) {
+  const Bytes bytes = serialise(encoded);
+  StationOutput output =
+      station.receive({robot, frame.stamp, frame.frame_id, exchange, bytes}, now);
+  if (output.frames.empty()) {
+    return "the station rebuilt nothing of " + robot +
+           (output.errors.empty() ? std::string() : ": " + output.errors.front().reason);
+  }
+  out = std::move(output.frames.front());
+  return {};
+}
+
+}  // namespace
+
+PairRunner::PairRunner(std::unique_ptr<Robots> robots) : robots_(std::move(robots)) {
+}
+PairRunner::PairRunner(PairRunner&&) noexcept = default;
+PairRunner& PairRunner::operator=(PairRunner&&) noexcept = default;
+PairRunner::~PairRunner() = default;
+
+Result<PairRunner> PairRunner::create(const Profile& profile) {
+  Result<FrameEncoder> encoder = FrameEncoder::create(profile.codec);
+  if (!encoder) return Error{encoder.reason()};
+  return PairRunner(std::make_unique<Robots>(profile, std::move(*encoder)));
+}
+
+Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::size_t b) {
+  Robots& robots = *robots_;
+  robots.now += from_seconds(1.0);
+  const Result<RgbdImage> image_a = folder.load(a);
+  if (!image_a) return Error{image_a.reason()};
+  const Result<RgbdImage> image_b = folder.load(b);
+  if (!image_b) return Error{image_b.reason()};
+  const Camera camera = rounded_for_wire(folder.camera);
+  const PoseFramePtr frame_a = pose_frame(*image_a, camera, robots.now, kFrameA);
+  const PoseFramePtr frame_b = pose_frame(*image_b, camera, robots.now, kFrameB);
+  PairResult result;
+  result.a = a;
+  result.b = b;
+
+  // a sends its frame whole, as the reference.
+  EncodedFrame whole_a;
+  whole_a.camera = camera;
+  Result<bool> done = robots.encoder.encode(frame_a->depth, frame_a->bgr, whole_a);
+  if (!done) return Error{done.reason()};
+  std::optional<RebuiltFrame> at_station;
+  std::string wrong = send(whole_a, *frame_a, kA, 0, robots.station, robots.now, at_station);
+  if (!wrong.empty()) return Error{wrong};
+
+  // a and b agree on their pose, a predicts, b validates, encodes and sends.
+  result.exchange = robots.harness.run(frame_a, frame_b);
+  const OutgoingDecision decision = decide(result, frame_a, frame_b, robots.predictor,
+                                           robots.validator, robots.outgoing, robots.now);
+  result.blocks_predicted = decision.blocks_predicted;
+  result.blocks_validated = decision.blocks_validated;
+  EncodedFrame encoded = frame_to_encode(*frame_b, result.exchange.at_dependent, decision, result);
+  done = robots.encoder.encode(frame_b->depth, frame_b->bgr, encoded);
+  if (!done) return Error{done.reason()};
+  wrong = send(encoded, *frame_b, kB, decision.exchange, robots.station, robots.now, at_station);
+  if (!wrong.empty()) return Error{wrong};
+  result.rebuilt = std::move(*at_station);
+
+  // The rival: b's whole frame through the same codecs.
+  EncodedFrame independent;
+  independent.camera = camera;
+  done = robots.encoder.encode(frame_b->depth, frame_b->bgr, independent);
+  if (!done) return Error{done.reason()};
+  const Bytes bytes = serialise(independent, &result.independent);
+  result.independent.total = encoded_message_bytes(kFrameB.size(), bytes.size());
+  const Result<DecodedFrame> decoded = robots.independent_decoder.decode(independent);
+  if (!decoded) return Error{decoded.reason()};
+
+  const cv::Mat& truth = frame_b->bgr;
+  result.psnr = *psnr(result.rebuilt.bgr, truth);
+  result.ssim = ssim(result.rebuilt.bgr, truth);
+  result.psnr_predicted =
+      psnr(result.rebuilt.bgr, truth, result.rebuilt.provenance != static_cast<double>(kReceived));
+  result.independent_psnr = *psnr(decoded->bgr, truth);
+  result.independent_ssim = ssim(decoded->bgr, truth);
+  result.depth = depth_quality(result.rebuilt.depth, frame_b->depth);
+  result.depth_exact = received_depth_is_exact(result.rebuilt, frame_b->depth);
+  const auto& world_a = folder.entries[a].world_from_camera;
+  const auto& world_b = folder.entries[b].world_from_camera;
+  if (world_a && world_b) {
+    const Pose truth_ab = relative_motion(*world_a, *world_b);
+    result.overlap = overlap(frame_a->depth, camera, frame_b->depth, camera, truth_ab);
+    if (result.exchange.pose) {
+      result.pose_error = pose_error(result.exchange.pose->motion, truth_ab);
+    }
+  }
+  return result;
+}
+
+}  // namespace rprr

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_eval/profile.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+
+#include "profile_folder.hpp"
+
+namespace rprr {
+namespace {
+
+template <typename T>
+void read(const YAML::Node& file, const char* key, T& value) {
+  if (file[key]) value = file[key].as<T>();
+}
+
+void read_pose(const YAML::Node& file, SamplesOptions& pose) {
+  read(file, "sample_count", pose.sample_count);
+  read(file, "max_iterations", pose.max_iterations);
+  read(file, "converged_translation", pose.converged_translation);
+  read(file, "converged_rotation", pose.converged_rotation);
+  read(file, "resample", pose.resample);
+  read(file, "weigh_by_noise", pose.by_noise);
+  read(file, "local_start", pose.local_start);
+  read(file, "min_overlap", pose.limits.min_overlap);
+  read(file, "min_consistent", pose.limits.min_consistent);
+  read(file, "max_violating", pose.limits.max_violating);
+  read(file, "max_residual_sigmas", pose.limits.max_residual_sigmas);
+  read(file, "min_matched", pose.limits.min_matched);
+  read(file, "max_sigma_translation", pose.limits.max_sigma_translation);
+  read(file, "max_sigma_rotation", pose.limits.max_sigma_rotation);
+}
+
+// Empty, or why a word is none of the two that a key knows.
+template <typename T>
+std::string choose(const YAML::Node& file, const char* key, const char* first, T first_value,
+                   const char* second, T second_value, T& value) {
+  if (!file[key]) return {};
+  const auto word = file[key].as<std::string>();
+  if (word == first) {
+    value = first_value;
+  } else if (word == second) {
+    value = second_value;
+  } else {
+    return std::string(key) + ": '" + word + "' is neither " + first + " nor " + second;
+  }
+  return {};
+}
+
+std::string read_rest(const YAML::Node& file, Profile& profile) {
+  read(file, "validation_min_pixels", profile.validation.min_pixels);
+  read(file, "colour_codec", profile.codec.colour_codec);
+  read(file, "colour_quality", profile.codec.colour_quality);
+  std::string wrong = choose(file, "unsent_fill", "black", UnsentFill::kBlack, "smooth",
+                             UnsentFill::kSmooth, profile.codec.fill);
+  if (wrong.empty()) {
+    wrong = choose(file, "synthesis", "forward", Synthesis::kForward, "backward",
+                   Synthesis::kBackward, profile.station.synthesis.mode);
+  }
+  if (wrong.empty()) {
+    wrong = choose(file, "unknown_fill", "black", UnknownFill::kBlack, "smooth",
+                   UnknownFill::kSmooth, profile.station.unknown_fill);
+  }
+  return wrong;
+}
+
+}  // namespace
+
+Result<Profile> load_profile(const std::string& name_or_path) {
+  std::string path = name_or_path;
+  if (path.find('/') == std::string::npos && path.find('.') == std::string::npos) {
+    path = profile_folder() + "/" + path + ".yaml";
+  }
+  if (!std::filesystem::exists(path)) {
+    return Error{"no profile " + path + "; use default, paper or the path of a YAML file"};
+  }
+  Profile profile;
+  profile.name = name_or_path;
+  try {
+    const YAML::Node file = YAML::LoadFile(path);
+    read_pose(file, profile.pose);
+    const std::string wrong = read_rest(file, profile);
+    if (!wrong.empty()) return Error{path + ": " + wrong};
+  } catch (const YAML::Exception& error) {
+    return Error{path + ": " + error.what()};
+  }
+  return profile;
+}
+
+}  // namespace rprr

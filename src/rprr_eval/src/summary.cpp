@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_eval/summary.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+namespace rprr {
+namespace {
+
+using Field = std::function<double(const PairResult&)>;
+
+// Poses count as right and as wrong with a gap between, since the ground truth has its own error.
+constexpr double kRightMetres = 0.08, kRightDegrees = 3.0;
+constexpr double kWrongMetres = 0.16, kWrongDegrees = 6.0;
+
+bool accepted(const PairResult& r) {
+  return r.exchange.pose && r.exchange.pose->status == PoseStatus::kAccepted;
+}
+bool right(const PairResult& r) {
+  return r.pose_error && r.pose_error->metres < kRightMetres &&
+         r.pose_error->degrees < kRightDegrees;
+}
+bool wrong(const PairResult& r) {
+  return r.pose_error &&
+         (r.pose_error->metres > kWrongMetres || r.pose_error->degrees > kWrongDegrees);
+}
+
+double median_of(const std::vector<PairResult>& results, const Field& field) {
+  std::vector<double> values;
+  values.reserve(results.size());
+  for (const PairResult& result : results) values.push_back(field(result));
+  return median(std::move(values));
+}
+
+void line(std::string& out, const char* label, const char* format, double value) {
+  char text[160];
+  std::snprintf(text, sizeof(text), format, value);
+  char row[240];
+  std::snprintf(row, sizeof(row), "  %-44s %s\n", label, text);
+  out += row;
+}
+
+void pose_lines(std::string& out, const std::vector<PairResult>& results) {
+  std::vector<PairResult> good;
+  double n_accepted = 0, n_right = 0, n_wrong = 0, with_truth = 0;
+  for (const PairResult& result : results) {
+    if (result.pose_error) ++with_truth;
+    if (!accepted(result)) continue;
+    ++n_accepted;
+    if (right(result)) ++n_right;
+    if (wrong(result)) ++n_wrong;
+    if (result.pose_error) good.push_back(result);
+  }
+  line(out, "poses accepted", "%.0f", n_accepted);
+  if (with_truth > 0) {
+    line(out, "  and right (under 8 cm and 3 deg)", "%.0f", n_right);
+    line(out, "  but wrong (over 16 cm or 6 deg)", "%.0f", n_wrong);
+    line(out, "  median error", "%.1f mm",
+         1e3 * median_of(good, [](const PairResult& r) { return r.pose_error->metres; }));
+    line(out, "", "%.2f deg",
+         median_of(good, [](const PairResult& r) { return r.pose_error->degrees; }));
+  }
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string summary_table(const std::vector<PairResult>& results, const Profile& profile) {
+  std::string out = "profile " + profile.name + ", colour codec " + profile.codec.colour_codec +
+                    " at quality " + std::to_string(profile.codec.colour_quality) + ", " +
+                    std::to_string(results.size()) + " pairs; medians over all of them\n";
+  const auto add = [&](const char* label, const char* format, const Field& field) {
+    line(out, label, format, median_of(results, field));
+  };
+  pose_lines(out, results);
+  add("blocks sent of all", "%.3f", [](const PairResult& r) {
+    return static_cast<double>(r.rebuilt.blocks_sent) / r.rebuilt.blocks_total;
+  });
+  add("bytes: pose exchange", "%.0f", [](const PairResult& r) { return double(r.exchange.bytes); });
+  add("bytes: masks", "%.0f", [](const PairResult& r) { return double(r.rebuilt.bytes_masks); });
+  add("bytes: depth", "%.0f", [](const PairResult& r) { return double(r.rebuilt.sizes.depth); });
+  add("bytes: colour", "%.0f", [](const PairResult& r) { return double(r.rebuilt.sizes.colour); });
+  add("bytes: total", "%.0f", [](const PairResult& r) { return double(r.rebuilt.bytes_total); });
+  add("bytes: independent", "%.0f",
+      [](const PairResult& r) { return double(r.independent.total); });
+  add("bytes: total / independent", "%.3f", [](const PairResult& r) {
+    return static_cast<double>(r.rebuilt.bytes_total) / static_cast<double>(r.independent.total);
+  });
+  add("PSNR, whole frame", "%.2f dB", [](const PairResult& r) { return r.psnr; });
+  add("PSNR, independent", "%.2f dB", [](const PairResult& r) { return r.independent_psnr; });
+  add("SSIM, whole frame", "%.3f", [](const PairResult& r) { return r.ssim; });
+  add("depth RMSE", "%.1f mm", [](const PairResult& r) { return r.depth.rmse_mm; });
+  add("depth coverage", "%.3f", [](const PairResult& r) { return r.depth.coverage; });
+  const bool exact = std::all_of(results.begin(), results.end(),
+                                 [](const PairResult& r) { return r.depth_exact; });
+  out += std::string("  depth of sent blocks bit-exact in every pair   ") + (exact ? "yes" : "NO") +
+         "\n";
+  add("ms: pose, both robots", "%.2f",
+      [](const PairResult& r) { return 1e3 * r.exchange.seconds_compute; });
+  add("ms: predict + validate", "%.2f",
+      [](const PairResult& r) { return r.ms_predict + r.ms_validate; });
+  add("ms: encode", "%.2f", [](const PairResult& r) { return double(r.rebuilt.report.ms_encode); });
+  add("ms: decode + reconstruct", "%.2f",
+      [](const PairResult& r) { return r.rebuilt.ms_decode + r.rebuilt.ms_reconstruct; });
+  return out;
+}
+
+}  // namespace rprr
