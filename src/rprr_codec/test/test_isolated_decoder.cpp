@@ -88,7 +88,9 @@ TEST_F(IsolatedDecoder, HostilePayloadsCostOneErrorEach) {
     seal(hostile);
     const Result<cv::Mat> image = decoder->decode("pgf", hostile, image_.size());
     errors += image ? 0 : 1;
-    if (image) EXPECT_EQ(image->size(), image_.size());
+    if (image) {
+      EXPECT_EQ(image->size(), image_.size());
+    }
     if (trial % 20 == 0) expect_good(*decoder);
   }
   EXPECT_GT(errors, 20) << "the mutations were too tame";
@@ -121,8 +123,8 @@ TEST_F(IsolatedDecoder, AWorkerThatDiesTalksNonsenseOrEchoesIsAnError) {
   const fs::path die = script("die", "exit 3");
   const fs::path garbage = script("garbage", "exec 1>&0; head -c 100000 /dev/zero | tr '\\0' 'x'");
   const fs::path liar = script("liar", "exec 1>&0; printf '\\000\\377\\377aaaa'");
-  const auto decoder = make_isolated_colour_decoder({0.5, std::size_t{512} << 20});
   for (const fs::path& path : {die, garbage, liar, fs::path("/bin/cat"), fs::path("/bin/true")}) {
+    const auto decoder = make_isolated_colour_decoder({0.5, std::size_t{512} << 20});
     {
       const OtherWorker other(path.string());
       for (int i = 0; i < 3; ++i) {

@@ -11,32 +11,33 @@ namespace {
 constexpr std::uint8_t kVersion = 1;
 constexpr std::uint8_t kModeBits = 0x03;
 constexpr std::uint8_t kMasked = 0x04;
-constexpr std::uint8_t kWideUnit = 0x08;  // f64; else f32
-constexpr std::uint8_t kKnownBits = kModeBits | kMasked | kWideUnit;
+constexpr std::uint8_t kPlainUnit = 0x08;  // f64 metres per count; else f32 counts per metre
+constexpr std::uint8_t kKnownBits = kModeBits | kMasked | kPlainUnit;
 constexpr std::size_t kLengthAt = 6;
 
 }  // namespace
 
 void begin(const Header& header, Bytes& out) {
-  const auto narrow = static_cast<float>(header.unit);
-  const bool wide = static_cast<double>(narrow) != header.unit;
+  // Sensors count in whole parts of a metre: 1000, 5000.
+  const auto per_metre = static_cast<float>(1.0 / header.unit);
+  const bool plain = 1.0 / static_cast<double>(per_metre) != header.unit;
   ByteWriter writer;
   writer.put(kVersion);
   writer.put(static_cast<std::uint8_t>(static_cast<std::uint8_t>(header.mode) |
-                                       (header.masked ? kMasked : 0) | (wide ? kWideUnit : 0)));
+                                       (header.masked ? kMasked : 0) | (plain ? kPlainUnit : 0)));
   writer.put(static_cast<std::uint16_t>(header.width));
   writer.put(static_cast<std::uint16_t>(header.height));
   writer.put(std::uint32_t{0});
-  if (wide) {
+  if (plain) {
     writer.put(header.unit);
   } else {
-    writer.put(narrow);
+    writer.put(per_metre);
   }
   out = writer.take();
 }
 
 void finish(Bytes& out) {
-  const std::size_t head = kLengthAt + 4 + ((out[1] & kWideUnit) != 0 ? 8 : 4);
+  const std::size_t head = kLengthAt + 4 + ((out[1] & kPlainUnit) != 0 ? 8 : 4);
   const std::size_t body = out.size() - head;
   for (std::size_t i = 0; i < 4; ++i) {
     out[kLengthAt + i] = static_cast<std::uint8_t>(body >> (8 * i));
@@ -52,8 +53,8 @@ Result<Opened> open(ByteView payload) {
   opened.header.width = reader.get<std::uint16_t>();
   opened.header.height = reader.get<std::uint16_t>();
   const auto length = reader.get<std::uint32_t>();
-  opened.header.unit =
-      (flags & kWideUnit) != 0 ? reader.get<double>() : static_cast<double>(reader.get<float>());
+  opened.header.unit = (flags & kPlainUnit) != 0 ? reader.get<double>()
+                                                 : 1.0 / static_cast<double>(reader.get<float>());
   if (!reader.ok()) return Error{"depth payload damaged or cut short"};
   if (version != kVersion) return Error{"depth payload of an unknown version"};
   if ((flags & ~kKnownBits) != 0 || (flags & kModeBits) > 1) {

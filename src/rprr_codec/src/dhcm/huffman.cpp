@@ -171,17 +171,21 @@ namespace {
 
 // Lengths are listed up to the last symbol that occurs. They mostly stay or grow by one from symbol
 // to symbol, which takes one or two bits: 0 as before, 10 one more, 110 one less, 1110 does not
-// occur, 1111 and the length in four bits.
+// occur, 1111 and the length in four bits; "before" is the last symbol that occurs. Behind a symbol
+// that does not occur stands one bit more: whether the next one does.
 template <typename Put>
 void list_lengths(const CodeLengths& lengths, const Put& put) {
   int last = kSymbols;
   while (last > 0 && lengths[static_cast<std::size_t>(last - 1)] == 0) --last;
   put(static_cast<std::uint32_t>(last), 6);
   int before = kFirstLength;
+  bool in_gap = false;
   for (int i = 0; i < last; ++i) {
     const int length = lengths[static_cast<std::size_t>(i)];
+    if (in_gap) put(length != 0 ? 1 : 0, 1);
     if (length == 0) {
-      put(0b0111, 4);
+      if (!in_gap) put(0b0111, 4);
+      in_gap = true;
       continue;
     }
     if (length == before) {
@@ -194,28 +198,26 @@ void list_lengths(const CodeLengths& lengths, const Put& put) {
       put(0b1111 | static_cast<std::uint32_t>(length) << 4, 8);
     }
     before = length;
+    in_gap = false;
   }
 }
 
-// False where the bits do not state a possible length.
-bool read_length(BitReader& bits, int& before, std::uint8_t& length) {
-  int next = before;
+// A length in terms of the one before, 0 for a symbol that does not occur, or -1 where the bits
+// state no possible length.
+int read_length(BitReader& bits, int before) {
+  int length = before;
   if (bits.get(1) != 0) {
     if (bits.get(1) == 0) {
-      next = before + 1;
+      length = before + 1;
     } else if (bits.get(1) == 0) {
-      next = before - 1;
+      length = before - 1;
     } else if (bits.get(1) == 0) {
-      length = 0;
-      return true;
+      return 0;
     } else {
-      next = static_cast<int>(bits.get(4));
+      length = static_cast<int>(bits.get(4));
     }
   }
-  if (next < 1 || next > kMaxCodeLength) return false;
-  before = next;
-  length = static_cast<std::uint8_t>(next);
-  return true;
+  return length >= 1 && length <= kMaxCodeLength ? length : -1;
 }
 
 }  // namespace
@@ -235,8 +237,14 @@ bool read_lengths(BitReader& bits, CodeLengths& lengths) {
   const std::uint32_t last = bits.get(6);
   if (last > kSymbols) return false;
   int before = kFirstLength;
+  bool in_gap = false;
   for (std::uint32_t i = 0; i < last; ++i) {
-    if (!read_length(bits, before, lengths[i])) return false;
+    if (in_gap && bits.get(1) == 0) continue;
+    const int length = read_length(bits, before);
+    if (length < 0) return false;
+    lengths[i] = static_cast<std::uint8_t>(length);
+    in_gap = length == 0;
+    if (!in_gap) before = length;
   }
   return !bits.overrun();
 }
