@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Outgoing frames go into the encoder under test (as a nodelet or a node), and what comes out is
+// decoded again.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rprr_msgs/EncodedFrame.h>
+#include <rprr_msgs/OutgoingFrame.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <cmath>
+#include <vector>
+
+#include "rprr_codec/frame_codec.hpp"
+#include "rprr_geometry_ros/conversions.hpp"
+#include "synthetic.hpp"
+
+namespace rprr {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+
+constexpr int kWidth = 164;
+constexpr int kHeight = 122;
+
+class Encoder : public ::testing::Test {
+ protected:
+  Encoder()
+      : depth_(synthetic::kinect_like(kWidth, kHeight)),
+        bgr_(synthetic::colourful(kWidth, kHeight)),
+        mask_(synthetic::some_blocks(BlockGrid(kWidth, kHeight), 0.3)),
+        motion_(exp_se3((Twist() << 0.1, 0.0, -0.05, 0.01, 0.1, 0.0).finished())),
+        decoder_(make_isolated_colour_decoder()) {
+    publisher_ = nh_.advertise<rprr_msgs::OutgoingFrame>("/eyebug_b/rprr/outgoing", 10);
+    subscriber_ = nh_.subscribe<rprr_msgs::EncodedFrame>(
+        "/eyebug_b/rprr/encoded", 10,
+        [this](const rprr_msgs::EncodedFrameConstPtr& message) { received_.push_back(message); });
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(20.0);
+    while (publisher_.getNumSubscribers() == 0 || subscriber_.getNumPublishers() == 0) {
+      if (ros::WallTime::now() > deadline) break;
+      ros::WallDuration(0.02).sleep();
+      ros::spinOnce();
+    }
+  }
+
+  rprr_msgs::OutgoingFrame outgoing(bool sparse) const {
+    rprr_msgs::OutgoingFrame message;
+    message.header.stamp = ros::Time(100, 5000);
+    message.header.frame_id = "/eyebug_b_rgb_optical_frame";
+    message.exchange = 7;
+    message.sparse = sparse ? 1 : 0;
+    message.camera_info =
+        info_from_camera({kWidth, kHeight, 150.0, 150.0, 80.0, 60.0}, message.header);
+    message.rgb = to_image(message.header, encodings::BGR8, bgr_);
+    message.depth = to_image(message.header, encodings::TYPE_16UC1, depth_.counts);
+    message.exchange_bytes = 3000;
+    message.mask_bytes = 300;
+    message.ms_pose = 12.5f;
+    if (sparse) {
+      message.reference = "eyebug_a";
+      message.reference_stamp = ros::Time(99, 1);
+      pose_to_fields(motion_, message.translation, message.rotation);
+      message.mask = encode_mask(mask_);
+      message.blocks_predicted = 11;
+    }
+    return message;
+  }
+  // The next encoded frame, parsed; nothing comes within the time: null.
+  rprr_msgs::EncodedFrameConstPtr next(double seconds = 10.0) {
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(seconds);
+    while (received_.empty() && ros::WallTime::now() < deadline) {
+      ros::WallDuration(0.005).sleep();
+      ros::spinOnce();
+    }
+    if (received_.empty()) return nullptr;
+    const auto message = received_.front();
+    received_.erase(received_.begin());
+    return message;
+  }
+
+  ros::NodeHandle nh_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  std::vector<rprr_msgs::EncodedFrameConstPtr> received_;
+  DepthFrame depth_;
+  cv::Mat bgr_;
+  BlockMask mask_;
+  Pose motion_;
+  FrameDecoder decoder_;
+};
+
+TEST_F(Encoder, AWholeFrameComesOutBitByBit) {
+  publisher_.publish(outgoing(false));
+  const auto message = next();
+  ASSERT_TRUE(message) << "nothing on /eyebug_b/rprr/encoded";
+  EXPECT_EQ(message->header.stamp, ros::Time(100, 5000));
+  EXPECT_EQ(message->header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_EQ(message->exchange, 7u);
+  const Result<EncodedFrame> frame = parse_encoded_frame(message->data);
+  ASSERT_TRUE(frame) << frame.reason();
+  EXPECT_FALSE(frame->sparse);
+  EXPECT_EQ(frame->report.bytes_pose, 2700u);
+  EXPECT_EQ(frame->report.bytes_masks, 300u);
+  const Result<DecodedFrame> images = decoder_.decode(*frame);
+  ASSERT_TRUE(images) << images.reason();
+  EXPECT_TRUE(synthetic::same(images->depth.counts, depth_.counts));
+  EXPECT_TRUE(synthetic::same(images->bgr, bgr_)) << "colour quality is 0, lossless";
+}
+
+TEST_F(Encoder, ASparseFrameHoldsItsBlocksAndItsMotion) {
+  publisher_.publish(outgoing(true));
+  const auto message = next();
+  ASSERT_TRUE(message) << "nothing on /eyebug_b/rprr/encoded";
+  const Result<EncodedFrame> frame = parse_encoded_frame(message->data);
+  ASSERT_TRUE(frame) << frame.reason();
+  EXPECT_TRUE(frame->sparse);
+  EXPECT_EQ(frame->reference, "eyebug_a");
+  EXPECT_EQ(frame->reference_stamp, to_stamp(ros::Time(99, 1)));
+  EXPECT_LT((frame->motion.matrix() - motion_.matrix()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_TRUE(frame->mask == mask_);
+  EXPECT_EQ(frame->report.blocks_predicted, 11);
+  EXPECT_GT(frame->report.independent_bytes_depth, frame->depth.size());
+  const Result<DecodedFrame> images = decoder_.decode(*frame);
+  ASSERT_TRUE(images) << images.reason();
+  EXPECT_TRUE(synthetic::same(images->depth.counts, synthetic::only(depth_.counts, mask_)));
+  EXPECT_TRUE(synthetic::same(synthetic::only(images->bgr, mask_), synthetic::only(bgr_, mask_)));
+}
+
+TEST_F(Encoder, FloatDepthIsCodedInCountsOfTheUnit) {
+  DepthFrame fine = depth_;
+  fine.unit = 0.0002;
+  rprr_msgs::OutgoingFrame message = outgoing(false);
+  message.depth = to_image(message.header, encodings::TYPE_32FC1, to_float_image(fine));
+  publisher_.publish(message);
+  const auto encoded = next();
+  ASSERT_TRUE(encoded) << "nothing on /eyebug_b/rprr/encoded";
+  const Result<EncodedFrame> frame = parse_encoded_frame(encoded->data);
+  ASSERT_TRUE(frame) << frame.reason();
+  const Result<DecodedFrame> images = decoder_.decode(*frame);
+  ASSERT_TRUE(images) << images.reason();
+  EXPECT_EQ(images->depth.unit, 0.0002);
+  EXPECT_TRUE(synthetic::same(images->depth.counts, depth_.counts));
+}
+
+TEST_F(Encoder, UnusableFramesAreLeftOutAndTheNextOneGoesOut) {
+  std::vector<rprr_msgs::OutgoingFrame> unusable(6, outgoing(true));
+  unusable[0].mask.pop_back();
+  unusable[1].rotation.fill(std::nan(""));
+  unusable[1].translation.fill(std::nan(""));
+  unusable[2].depth.data.resize(10);
+  unusable[3].rgb.encoding = "16UC1";
+  unusable[4].camera_info.K.fill(0.0);
+  unusable[4].camera_info.P.fill(0.0);
+  unusable[5].reference.clear();
+  for (const auto& message : unusable) {
+    publisher_.publish(message);
+    EXPECT_FALSE(next(0.2)) << "an unusable frame was encoded";
+  }
+  publisher_.publish(outgoing(true));
+  EXPECT_TRUE(next()) << "the encoder did not survive unusable frames";
+}
+
+}  // namespace
+}  // namespace rprr
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_encoder");
+  return RUN_ALL_TESTS();
+}
