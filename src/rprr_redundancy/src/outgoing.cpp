@@ -25,10 +25,7 @@ std::vector<OutgoingDecision> Outgoing::whole(Stamp stamp, std::uint32_t exchang
 
 std::vector<OutgoingDecision> Outgoing::accepted(Stamp stamp, std::uint32_t exchange,
                                                  BlockMask validated, Stamp now) {
-  const auto same_stamp = [stamp](const Waiting& frame) { return frame.stamp == stamp; };
-  if (decided_.contains(stamp) || std::any_of(waiting_.begin(), waiting_.end(), same_stamp)) {
-    return {};
-  }
+  if (decided_.contains(stamp) || waits(stamp)) return {};
   Waiting frame{stamp, exchange, std::move(validated), now + options_.prediction_timeout};
   const auto early = std::find_if(early_.begin(), early_.end(), [&](const Early& prediction) {
     return prediction.stamp == stamp && prediction.exchange == exchange;
@@ -85,6 +82,11 @@ std::vector<OutgoingDecision> Outgoing::tick(Stamp now) {
   }
   while (!early_.empty() && early_.front().forget_at <= now) early_.pop_front();
   return decisions;
+}
+
+bool Outgoing::waits(Stamp stamp) const {
+  return std::any_of(waiting_.begin(), waiting_.end(),
+                     [stamp](const Waiting& frame) { return frame.stamp == stamp; });
 }
 
 OutgoingDecision Outgoing::decide(const Waiting& frame, const Early& prediction) {

@@ -71,7 +71,8 @@ class Outgoing {
   /// Frames whose prediction did not come in time go out whole.
   std::vector<OutgoingDecision> tick(Stamp now);
 
-  /// Frames that wait for their prediction.
+  /// Whether a frame waits for its prediction, and how many do.
+  bool waits(Stamp stamp) const;
   std::size_t waiting() const { return waiting_.size(); }
   std::size_t early_predictions() const { return early_.size(); }
 
