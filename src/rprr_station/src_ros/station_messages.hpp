@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rprr_msgs/PairStatistics.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+
+#include <string>
+
+#include "rprr_station/station.hpp"
+
+namespace rprr {
+
+enum class DepthEncoding { kAuto /* 16UC1 where a count is 1 mm */, kMillimetres, kMetres };
+
+/// The sender's stamp; the frame in which the view lives: the sender's own for a whole one,
+/// <robot>_rprr_optical_frame for a rebuilt one.
+std_msgs::Header header_of(const RebuiltFrame& frame);
+
+sensor_msgs::Image depth_message(const RebuiltFrame& frame, const std_msgs::Header& header,
+                                 DepthEncoding encoding);
+
+/// Organised, x y z rgb, NaN where there is no depth.
+sensor_msgs::PointCloud2 cloud_message(const RebuiltFrame& frame, const std_msgs::Header& header);
+
+/// All but latency_ms, which needs a clock.
+rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
+                                             const std_msgs::Header& header);
+
+}  // namespace rprr

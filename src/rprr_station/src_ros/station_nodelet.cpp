@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nodelet/nodelet.h>
+#include <rprr_msgs/EncodedFrame.h>
+#include <rprr_msgs/PairStatistics.h>
+#include <rprr_msgs/Receipt.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <pluginlib/class_list_macros.hpp>
+#include <string>
+#include <vector>
+
+#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_station/station.hpp"
+#include "station_messages.hpp"
+#include "station_parameters.hpp"
+
+namespace rprr {
+
+/// The remote monitoring station over topics: encoded frames of all robots in, views, statistics
+/// and receipts out.
+class StationNodelet : public nodelet::Nodelet {
+ private:
+  struct Robot {
+    ros::Subscriber encoded;
+    ros::Publisher rgb;
+    ros::Publisher info;
+    ros::Publisher depth;
+    ros::Publisher points;
+    ros::Publisher provenance;
+    std::deque<rprr_msgs::EncodedFrameConstPtr> queue;  // guarded by mutex_
+  };
+
+  void onInit() override {
+    ros::NodeHandle& nh = getNodeHandle();
+    const Result<StationParameters> parameters = read_station_parameters(getPrivateNodeHandle());
+    if (!parameters) {
+      NODELET_FATAL_STREAM(parameters.reason());
+      return;
+    }
+    parameters_ = *parameters;
+    const std::vector<std::string>& names = parameters_.station.robots;
+    health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
+    statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
+    receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
+    station_ = std::make_unique<Station>(parameters_.station, make_isolated_colour_decoder());
+    // One job for every message that waits, one for the tick: no job is ever dropped.
+    worker_ = std::make_unique<Worker>(names.size() * parameters_.queue + 1);
+    for (const std::string& name : names) advertise(nh, name);
+    for (const std::string& name : names) {
+      robots_[name].encoded = nh.subscribe<rprr_msgs::EncodedFrame>(
+          "/" + name + "/rprr/encoded", 8,
+          [this, name](const rprr_msgs::EncodedFrameConstPtr& message) { enqueue(name, message); });
+    }
+    timer_ = nh.createWallTimer(ros::WallDuration(0.2), &StationNodelet::on_timer, this);
+  }
+
+  void advertise(ros::NodeHandle& nh, const std::string& name) {
+    const std::string prefix = "/station/" + name + "/";
+    Robot& robot = robots_[name];
+    robot.rgb = nh.advertise<sensor_msgs::Image>(prefix + "rgb/image_rect_color", 4);
+    robot.info = nh.advertise<sensor_msgs::CameraInfo>(prefix + "rgb/camera_info", 4);
+    robot.depth = nh.advertise<sensor_msgs::Image>(prefix + "depth_registered/image_rect", 4);
+    robot.points = nh.advertise<sensor_msgs::PointCloud2>(prefix + "points", 2);
+    robot.provenance = nh.advertise<sensor_msgs::Image>(prefix + "provenance", 4);
+  }
+
+  static Stamp now() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
+
+  // Every robot has a queue of its own: who floods the station loses his own frames only.
+  void enqueue(const std::string& name, const rprr_msgs::EncodedFrameConstPtr& message) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      auto& queue = robots_[name].queue;
+      queue.push_back(message);
+      if (queue.size() > parameters_.queue) {
+        queue.pop_front();
+        health_->warn("too slow " + name, "/" + name +
+                                              "/rprr/encoded comes faster than it is decoded; the "
+                                              "oldest frames are dropped: lower its rate");
+        return;
+      }
+    }
+    worker_->post([this, name] { decode_next(name); });
+  }
+
+  void on_timer(const ros::WallTimerEvent&) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (tick_posted_) return;
+      tick_posted_ = true;
+    }
+    worker_->post([this] {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        tick_posted_ = false;
+      }
+      publish(station_->tick(now()));
+    });
+  }
+
+  // From here on: the worker's thread.
+  void decode_next(const std::string& name) {
+    rprr_msgs::EncodedFrameConstPtr message;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      auto& queue = robots_[name].queue;
+      if (queue.empty()) return;
+      message = queue.front();
+      queue.pop_front();
+    }
+    ReceivedMessage received;
+    received.robot = name;
+    received.stamp = to_stamp(message->header.stamp);
+    received.frame_id = message->header.frame_id;
+    received.exchange = message->exchange;
+    received.data = ByteView(message->data);
+    publish(station_->receive(received, now()));
+  }
+
+  void publish(const StationOutput& output) {
+    std::map<std::string, std::vector<Stamp>> receipts;  // robot, stamps to repeat
+    for (const RebuiltFrame& frame : output.frames) {
+      publish(frame);
+      if (!frame.sparse) receipts[frame.robot];
+    }
+    for (const StationError& error : output.errors) {
+      health_->error("frame of " + error.robot,
+                     "/" + error.robot + "/rprr/encoded: " + error.reason + "; it is dropped");
+    }
+    for (const RepeatRequest& repeat : output.repeats) {
+      receipts[repeat.robot].push_back(repeat.stamp);
+    }
+    for (const auto& [robot, repeats] : receipts) publish_receipt(robot, repeats);
+  }
+
+  void publish(const RebuiltFrame& frame) {
+    namespace encodings = sensor_msgs::image_encodings;
+    const Robot& robot = robots_.at(frame.robot);
+    const std_msgs::Header header = header_of(frame);
+    robot.info.publish(info_from_camera(frame.camera, header));
+    if (robot.rgb.getNumSubscribers() > 0) {
+      robot.rgb.publish(
+          boost::make_shared<sensor_msgs::Image>(to_image(header, encodings::BGR8, frame.bgr)));
+    }
+    if (robot.depth.getNumSubscribers() > 0) {
+      robot.depth.publish(boost::make_shared<sensor_msgs::Image>(
+          depth_message(frame, header, parameters_.depth_encoding)));
+    }
+    if (robot.points.getNumSubscribers() > 0) {
+      robot.points.publish(
+          boost::make_shared<sensor_msgs::PointCloud2>(cloud_message(frame, header)));
+    }
+    if (robot.provenance.getNumSubscribers() > 0) {
+      robot.provenance.publish(boost::make_shared<sensor_msgs::Image>(
+          to_image(header, encodings::MONO8, frame.provenance)));
+    }
+    rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
+    statistics.latency_ms = static_cast<float>((ros::Time::now() - header.stamp).toSec() * 1e3);
+    statistics_.publish(statistics);
+    health_->count(frame.robot + (frame.sparse ? ": sparse frames" : ": whole frames"));
+  }
+
+  void publish_receipt(const std::string& robot, const std::vector<Stamp>& repeats) {
+    rprr_msgs::Receipt receipt;
+    receipt.header.stamp = ros::Time::now();
+    receipt.robot = robot;
+    for (const Stamp stamp : station_->held(robot)) receipt.held.push_back(to_time(stamp));
+    for (const Stamp stamp : repeats) receipt.repeat.push_back(to_time(stamp));
+    receipts_.publish(receipt);
+  }
+
+  // In the order in which they need each other: what is below is destroyed first.
+  StationParameters parameters_;
+  std::unique_ptr<Health> health_;
+  ros::Publisher statistics_;
+  ros::Publisher receipts_;
+  std::mutex mutex_;  // of the robots' queues and the next
+  bool tick_posted_ = false;
+  std::unique_ptr<Station> station_;  // the worker's
+  std::map<std::string, Robot> robots_;
+  std::unique_ptr<Worker> worker_;
+  ros::WallTimer timer_;
+
+ public:
+  ~StationNodelet() override {
+    // Subscribers live beside the queues that the worker reads: silence them first.
+    timer_.stop();
+    for (auto& [name, robot] : robots_) robot.encoded.shutdown();
+  }
+};
+
+}  // namespace rprr
+
+PLUGINLIB_EXPORT_CLASS(rprr::StationNodelet, nodelet::Nodelet)
