@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/result.hpp"
+#include "rprr_sensor_ros/recording.hpp"
+
+namespace rosbag {
+class Bag;
+}
+
+namespace rprr {
+
+enum class DepthEncoding {
+  automatic,    // 16UC1 where the unit is 1 mm, else 32FC1
+  millimetres,  // 16UC1; refused where it would round
+  metres        // 32FC1, whole multiples of the unit
+};
+
+/// Whose topics and frames a bag has.
+enum class BagShape {
+  rprr,  // /<robot>/camera/..., <robot>_rgb_optical_frame, /<robot>/ground_truth/pose
+  tum    // /camera/..., 32FC1, slash-prefixed frames, poses on /tf: as the TUM benchmark's bags
+};
+
+/// Writes what RGB-D cameras saw into one bag.
+class BagWriter {
+ public:
+  /// `compression` is none, bz2 or lz4. An existing file is overwritten.
+  static Result<BagWriter> create(const std::string& path, const std::string& compression);
+  BagWriter(BagWriter&&) noexcept;
+  BagWriter& operator=(BagWriter&&) noexcept;
+  ~BagWriter();  // closes the bag
+
+  /// Writes a frame, its camera_info and its pose. `robot` names topics and frames of the rprr
+  /// shape. Returns the number of messages. Errors: a stamp that bags cannot hold (zero, negative),
+  /// an encoding that would round, a full disk.
+  Result<int> add(const RecordedFrame& frame, const Camera& camera, const std::string& robot,
+                  BagShape shape, DepthEncoding encoding);
+
+ private:
+  explicit BagWriter(std::unique_ptr<rosbag::Bag> bag);
+
+  std::unique_ptr<rosbag::Bag> bag_;
+};
+
+}  // namespace rprr
