@@ -235,7 +235,7 @@ Result<RecordedFrame> BagRecording::load(std::size_t index) {
     }
     // The messages die here: keep pixels of our own.
     const RgbdImage image{bgr->clone(), {counts->counts.clone(), counts->unit}};
-    return RecordedFrame{colour_.stamps[c], image, pose_at(colour_.stamps[c])};
+    return RecordedFrame{colour_.stamps[c], image, pose_at(colour_.stamps[c]), depth_.stamps[d]};
   } catch (const rosbag::BagException& error) {
     return Error{std::string("the bag cannot be read: ") + error.what()};
   }

@@ -7,7 +7,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "rprr_geometry_ros/conversions.hpp"
@@ -103,9 +103,13 @@ Result<int> BagWriter::add(const RecordedFrame& frame, const Camera& camera,
   std_msgs::Header header;
   header.stamp = to_time(frame.stamp);
   header.frame_id = tum ? "/openni_rgb_optical_frame" : optical_frame(robot);
-  if (header.stamp < ros::TIME_MIN) return Error{"a bag cannot hold stamps before 1 ns"};
+  std_msgs::Header depth_header = header;
+  if (tum && frame.depth_stamp) depth_header.stamp = to_time(*frame.depth_stamp);
+  if (std::min(header.stamp, depth_header.stamp) < ros::TIME_MIN) {
+    return Error{"a bag cannot hold stamps before 1 ns"};
+  }
   const auto depth =
-      depth_message(header, frame.image.depth, tum ? DepthEncoding::metres : encoding);
+      depth_message(depth_header, frame.image.depth, tum ? DepthEncoding::metres : encoding);
   if (!depth) return Error{depth.reason()};
   const auto colour = to_image(header, sensor_msgs::image_encodings::BGR8, frame.image.bgr);
   const auto info = info_from_camera(camera, header);
@@ -113,10 +117,11 @@ Result<int> BagWriter::add(const RecordedFrame& frame, const Camera& camera,
   try {
     bag_->write(topics.colour, header.stamp, colour);
     bag_->write(topics.camera_info, header.stamp, info);
-    bag_->write(topics.depth, header.stamp, *depth);
+    bag_->write(topics.depth, depth_header.stamp, *depth);
     int messages = 3;
     if (tum) {
-      bag_->write("/camera/depth/camera_info", header.stamp, info);
+      bag_->write("/camera/depth/camera_info", depth_header.stamp,
+                  info_from_camera(camera, depth_header));
       ++messages;
     }
     if (frame.world_from_camera) {

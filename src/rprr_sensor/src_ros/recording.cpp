@@ -20,7 +20,8 @@ class FolderRecording : public Recording {
     auto image = folder_.load(index);
     if (!image) return Error{image.reason()};
     const RgbdEntry& entry = folder_.entries[index];
-    return RecordedFrame{entry.stamp, std::move(*image), entry.world_from_camera};
+    return RecordedFrame{entry.stamp, std::move(*image), entry.world_from_camera,
+                         entry.depth_stamp};
   }
 
  private:

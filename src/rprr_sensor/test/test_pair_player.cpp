@@ -39,6 +39,7 @@ RecordedFrame entry(int number, double unit) {
   for (auto& count : cv::Mat_<std::uint16_t>(frame.image.depth.counts)) {
     count = static_cast<std::uint16_t>(random.bits());
   }
+  frame.depth_stamp = frame.stamp + 15000000;
   frame.world_from_camera = Pose(Eigen::Translation3d(number, 0.5, -1.0));
   return frame;
 }

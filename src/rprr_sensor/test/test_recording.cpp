@@ -36,6 +36,7 @@ RecordedFrame random_frame(int number, double unit) {
   Twist twist;
   for (int i = 0; i < 6; ++i) twist[i] = random.between(-1.0, 1.0);
   frame.world_from_camera = exp_se3(twist);
+  frame.depth_stamp = frame.stamp - 15000000;
   return frame;
 }
 
@@ -92,6 +93,8 @@ TEST_P(RoundTrip, CountsColoursStampsAndPosesSurvive) {
     ASSERT_TRUE(frame) << frame.reason();
     const RecordedFrame expected = random_frame(k, GetParam().unit);
     EXPECT_EQ(frame->stamp, expected.stamp);
+    EXPECT_EQ(frame->depth_stamp,
+              GetParam().shape == BagShape::tum ? expected.depth_stamp : expected.stamp);
     EXPECT_EQ(frame->image.depth.unit, GetParam().unit);
     EXPECT_TRUE(same(frame->image.depth.counts, expected.image.depth.counts)) << "depth is exact";
     EXPECT_TRUE(same(frame->image.bgr, expected.image.bgr));

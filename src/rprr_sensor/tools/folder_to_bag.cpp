@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
 
 #include "progress.hpp"
 #include "rprr_sensor/tum_folder.hpp"
@@ -16,8 +15,8 @@ struct Options {
   std::string folder;
   std::string bag;
   std::string robot = "eyebug_a";
-  BagShape shape = BagShape::rprr;
-  DepthEncoding depth = DepthEncoding::automatic;
+  std::string shape = "rprr";
+  std::string depth = "auto";
   std::string compression = "none";
   std::size_t start = 0;
   std::size_t count = 0;
@@ -26,10 +25,6 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  const std::map<std::string, BagShape> shapes{{"rprr", BagShape::rprr}, {"tum", BagShape::tum}};
-  const std::map<std::string, DepthEncoding> encodings{{"auto", DepthEncoding::automatic},
-                                                       {"16UC1", DepthEncoding::millimetres},
-                                                       {"32FC1", DepthEncoding::metres}};
   app.add_option("folder", options.folder, "folder in the layout of the TUM RGB-D benchmark")
       ->required();
   app.add_option("bag", options.bag, "bag to write")->required();
@@ -37,10 +32,12 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--shape", options.shape,
                  "rprr: our topics; tum: topics, frames and /tf of the benchmark's bags")
-      ->transform(CLI::CheckedTransformer(shapes));
+      ->check(CLI::IsMember({"rprr", "tum"}))
+      ->capture_default_str();
   app.add_option("--depth", options.depth,
                  "auto: 16UC1 where the folder's unit is 1 mm, else 32FC1 (shape rprr)")
-      ->transform(CLI::CheckedTransformer(encodings));
+      ->check(CLI::IsMember({"auto", "16UC1", "32FC1"}))
+      ->capture_default_str();
   app.add_option("--compress", options.compression, "none, bz2 or lz4")
       ->check(CLI::IsMember({"none", "bz2", "lz4"}))
       ->capture_default_str();
@@ -62,8 +59,14 @@ std::vector<rprr::RgbdEntry> chosen_entries(const rprr::TumFolder& folder, const
     if (options.count > 0 && chosen.size() == options.count) break;
     chosen.push_back(folder.entries[k]);
     chosen.back().stamp += shift;
+    chosen.back().depth_stamp += shift;
   }
   return chosen;
+}
+
+DepthEncoding encoding_of(const std::string& name) {
+  if (name == "16UC1") return DepthEncoding::millimetres;
+  return name == "32FC1" ? DepthEncoding::metres : DepthEncoding::automatic;
 }
 
 int convert(const Options& options) {
@@ -73,14 +76,20 @@ int convert(const Options& options) {
   if (!folder) return rprr::fail(folder.reason());
   const auto entries = chosen_entries(*folder, options);
   if (entries.empty()) return rprr::fail("--start lies behind the last entry");
+  const BagShape shape = options.shape == "tum" ? BagShape::tum : BagShape::rprr;
+  const DepthEncoding encoding = encoding_of(options.depth);
+  if (shape == BagShape::rprr && encoding == DepthEncoding::millimetres &&
+      folder->depth_unit != 0.001) {
+    return rprr::fail("the folder's depth unit is not 1 mm, 16UC1 would round it; use 32FC1");
+  }
   auto bag = rprr::BagWriter::create(options.bag, options.compression);
   if (!bag) return rprr::fail(bag.reason());
   for (std::size_t k = 0; k < entries.size(); ++k) {
     auto image = folder->load(entries[k]);
     if (!image) return rprr::fail(image.reason());
-    const rprr::RecordedFrame frame{entries[k].stamp, *image, entries[k].world_from_camera};
-    const auto written =
-        bag->add(frame, folder->camera, options.robot, options.shape, options.depth);
+    const rprr::RecordedFrame frame{entries[k].stamp, *image, entries[k].world_from_camera,
+                                    entries[k].depth_stamp};
+    const auto written = bag->add(frame, folder->camera, options.robot, shape, encoding);
     if (!written) return rprr::fail(written.reason());
     rprr::show_progress(k + 1, entries.size());
   }

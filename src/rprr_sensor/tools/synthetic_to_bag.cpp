@@ -35,7 +35,7 @@ int make(const Options& options) {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto noise_seed = static_cast<std::uint32_t>(2 * k + i);
       const rprr::RecordedFrame frame{stamp, rprr::sense(room, sensors[i], poses[i], noise_seed),
-                                      poses[i]};
+                                      poses[i], std::nullopt};
       const auto written = bag->add(frame, sensors[i].camera, options.robots[i],
                                     rprr::BagShape::rprr, rprr::DepthEncoding::automatic);
       if (!written) return rprr::fail(written.reason());

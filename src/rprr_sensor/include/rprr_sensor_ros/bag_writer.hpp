@@ -37,8 +37,9 @@ class BagWriter {
   ~BagWriter();  // closes the bag
 
   /// Writes a frame, its camera_info and its pose. `robot` names topics and frames of the rprr
-  /// shape. Returns the number of messages. Errors: a stamp that bags cannot hold (zero, negative),
-  /// an encoding that would round, a full disk.
+  /// shape, where colour and depth have one stamp; in the tum shape depth keeps its own. Returns
+  /// the number of messages. Errors: a stamp that bags cannot hold (zero, negative), an encoding
+  /// that would round, a full disk.
   Result<int> add(const RecordedFrame& frame, const Camera& camera, const std::string& robot,
                   BagShape shape, DepthEncoding encoding);
 

@@ -16,9 +16,10 @@ namespace rprr {
 
 /// One entry of a recording, read.
 struct RecordedFrame {
-  Stamp stamp = 0;
+  Stamp stamp = 0;  // of the colour image; names the frame
   RgbdImage image;
   std::optional<Pose> world_from_camera;  // optical frame into the world, where known
+  std::optional<Stamp> depth_stamp;       // where the depth image has a stamp of its own
 };
 
 /// What one RGB-D camera saw, from a folder or from a bag: entries by number, read when asked for.
