@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <ros/serialization.h>
+
+#include "rprr_pose_ros/message_conversions.hpp"
+#include "synthetic_views.hpp"
+
+namespace rprr {
+namespace {
+
+TEST(MessageSizes, TheCoreCountsWhatRosSerialises) {
+  for (const std::size_t length : {0u, 1u, 1115u}) {
+    SamplesMessage samples{1, "eyebug_a_rgb_optical_frame", "eyebug_b", 7, Bytes(length)};
+    EXPECT_EQ(serialised_bytes(samples), ros::serialization::serializationLength(to_ros(samples)));
+    UpdateMessage update{1, "b", 7, Bytes(length)};
+    EXPECT_EQ(serialised_bytes(update), ros::serialization::serializationLength(to_ros(update)));
+  }
+  RelativePoseMessage pose;
+  pose.frame_id = "eyebug_a_rgb_optical_frame";
+  pose.dependent = "eyebug_b";
+  EXPECT_EQ(serialised_bytes(pose), ros::serialization::serializationLength(to_ros(pose)));
+  EXPECT_EQ(serialised_bytes(PoseMessage(pose)), serialised_bytes(pose));
+}
+
+TEST(MessageConversions, PosesComeBackAndUnknownStatusesAreMalformed) {
+  RelativePoseMessage pose;
+  pose.stamp = 1305031790645155000;
+  pose.dependent_stamp = pose.stamp + 5;
+  pose.status = PoseStatus::kDegenerate;
+  pose.motion = test_motion(0.4, 30.0);
+  pose.covariance = Matrix6::Identity();
+  pose.covariance(0, 5) = pose.covariance(5, 0) = 0.25;
+  const RelativePoseMessage back = from_ros(to_ros(pose));
+  EXPECT_EQ(back.stamp, pose.stamp);
+  EXPECT_EQ(back.dependent_stamp, pose.dependent_stamp);
+  EXPECT_EQ(back.status, pose.status);
+  EXPECT_LT((back.motion.matrix() - pose.motion.matrix()).norm(), 1e-12);
+  EXPECT_LT((back.covariance - pose.covariance).norm(), 1e-6);
+  rprr_msgs::RelativePose message = to_ros(pose);
+  message.status = 200;
+  EXPECT_EQ(from_ros(message).status, PoseStatus::kMalformed);
+}
+
+}  // namespace
+}  // namespace rprr
