@@ -3,6 +3,7 @@
 
 #include <PGFimage.h>
 
+#include <algorithm>
 #include <exception>
 #include <opencv2/core.hpp>
 
@@ -13,6 +14,12 @@ namespace {
 
 constexpr std::uint8_t kVersion = 1;
 constexpr int kBitsPerPixel = 24;
+// libpgf leaks where an image is too small for a wavelet level: smaller images are widened to this.
+constexpr int kMinSide = 16;
+
+cv::Size coded_size(cv::Size size) {
+  return {std::max(size.width, kMinSide), std::max(size.height, kMinSide)};
+}
 
 // libpgf throws IOException, which is no std::exception.
 template <typename T, typename Work>
@@ -66,12 +73,22 @@ cv::Mat decode_image(ByteView pgf, cv::Size expected) {
   return bgr;
 }
 
+cv::Mat widened(const cv::Mat& bgr) {
+  const cv::Size size = coded_size(bgr.size());
+  if (size == bgr.size()) return bgr;
+  cv::Mat wide;
+  cv::copyMakeBorder(bgr, wide, 0, size.height - bgr.rows, 0, size.width - bgr.cols,
+                     cv::BORDER_REPLICATE);
+  return wide;
+}
+
 }  // namespace
 
 Result<Bytes> PgfEncoder::encode(const cv::Mat& bgr) {
   if (bgr.empty() || bgr.type() != CV_8UC3) return Error{"colour image is not 8-bit BGR"};
   if (bgr.cols > kMaxImageSide || bgr.rows > kMaxImageSide) return Error{"colour image too large"};
-  Result<Bytes> pgf = guarded<Bytes>("encoding PGF", [&] { return encode_image(bgr, quality_); });
+  Result<Bytes> pgf =
+      guarded<Bytes>("encoding PGF", [&] { return encode_image(widened(bgr), quality_); });
   if (!pgf) return pgf;
   ByteWriter writer;
   writer.bytes().reserve(pgf->size() + 10);
@@ -100,7 +117,10 @@ Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected) {
     return Error{"colour payload states an impossible image size"};
   }
   const ByteView pgf = reader.get_view(reader.left());
-  return guarded<cv::Mat>("decoding PGF", [&] { return decode_image(pgf, expected); });
+  return guarded<cv::Mat>("decoding PGF", [&] {
+    const cv::Mat image = decode_image(pgf, coded_size(expected));
+    return image.size() == expected ? image : image(cv::Rect({0, 0}, expected)).clone();
+  });
 }
 
 }  // namespace rprr

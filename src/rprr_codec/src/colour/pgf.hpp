@@ -21,6 +21,7 @@ class PgfEncoder : public ColourEncoder {
 };
 
 /// Container of version 1: u8 version, u8 quality, u16 width, u16 height, PGF bytes, u32 CRC-32.
+/// The PGF image has at least 16 pixels a side; what is beyond width and height is cut off.
 /// libpgf is not safe against hostile bytes: call it in a process that may die.
 Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected);
 

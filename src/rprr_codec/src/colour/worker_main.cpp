@@ -51,7 +51,6 @@ void close_inherited() {
 void enter_limits(rlim_t memory) {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NOFILE, STDERR_FILENO + 1);  // nothing can be opened any more
   // Sanitizers map terabytes of shadow.
   if (!kSanitized) limit(RLIMIT_AS, memory);
