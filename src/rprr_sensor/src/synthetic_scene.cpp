@@ -5,76 +5,12 @@
 #include <opencv2/core.hpp>
 
 #include "intersection.hpp"
-#include "screen_tiles.hpp"
-#include "texture.hpp"
+#include "renderer.hpp"
 
 namespace rprr {
 namespace {
 
 constexpr int kShadowSide = 1024;
-
-struct Surface {
-  Eigen::Vector3f normal;  // in the solid's frame
-  SurfacePoint point;
-};
-
-Surface flatten_box(const Eigen::Vector3f& p, const Eigen::Vector3f& half) {
-  int axis = 0;
-  (p.array().abs() - half.array()).maxCoeff(&axis);
-  const bool front = p[axis] > 0.0f;
-  Surface s;
-  s.normal = Eigen::Vector3f::Zero();
-  s.normal[axis] = front ? 1.0f : -1.0f;
-  const int u = axis == 0 ? 1 : 0;
-  const int v = axis == 2 ? 1 : 2;
-  // Seen from outside u runs to the right, so that letters are not mirrored.
-  const bool mirrored = (axis == 1) == front;
-  s.point = {mirrored ? -p[u] : p[u],
-             p[v],
-             half[u],
-             half[v],
-             0.0f,
-             static_cast<std::uint32_t>(2 * axis + (front ? 1 : 0))};
-  return s;
-}
-
-Surface flatten_sphere(const Eigen::Vector3f& p, float radius) {
-  Surface s;
-  s.normal = p / radius;
-  const float round = 3.14159265f * radius;
-  s.point = {std::atan2(p.y(), p.x()) * radius,
-             std::asin(std::clamp(p.z() / radius, -1.0f, 1.0f)) * radius,
-             round,
-             0.5f * round,
-             0.0f,
-             0};
-  return s;
-}
-
-Surface flatten_cylinder(const Eigen::Vector3f& p, const Eigen::Vector3f& half) {
-  Surface s;
-  if (half.z() - std::abs(p.z()) < 1e-5f) {
-    s.normal = {0.0f, 0.0f, std::copysign(1.0f, p.z())};
-    s.point = {p.x(), p.y(), half.x(), half.x(), 0.0f, 1};
-  } else {
-    s.normal = Eigen::Vector3f(p.x(), p.y(), 0.0f).normalized();
-    s.point = {
-        std::atan2(p.y(), p.x()) * half.x(), p.z(), 3.14159265f * half.x(), half.z(), 0.0f, 0};
-  }
-  return s;
-}
-
-Surface flatten(const PlacedPrimitive& primitive, const Eigen::Vector3f& local) {
-  switch (primitive.shape) {
-    case Shape::sphere:
-      return flatten_sphere(local, primitive.half.x());
-    case Shape::cylinder:
-      return flatten_cylinder(local, primitive.half);
-    case Shape::box:
-      break;
-  }
-  return flatten_box(local, primitive.half);
-}
 
 /// Directions from the lamp to a square and back: the lower half of an octahedral map. Coordinates
 /// in pixels of the shadow image.
@@ -152,46 +88,16 @@ float Scene::lamp_visibility(const Eigen::Vector3f& world) const {
   return static_cast<float>(lit) / static_cast<float>(kTaps.size());
 }
 
+float Scene::light(const Eigen::Vector3f& world, const Eigen::Vector3f& normal) const {
+  const Eigen::Vector3f to_lamp = lamp_ - world;
+  const float facing = normal.dot(to_lamp) / to_lamp.norm();
+  const float around = ambient(normal);
+  if (facing <= 0.0f) return around;
+  return around + lamp_visibility(world) * facing * 3.8f / (1.0f + to_lamp.squaredNorm());
+}
+
 ExactView Scene::render(const Camera& camera, const Pose& world_from_camera) const {
-  std::vector<PlacedPrimitive> placed;
-  for (const auto& primitive : primitives_) placed.push_back(place(primitive, world_from_camera));
-  const ScreenTiles tiles(placed, camera);
-  const Eigen::Matrix3f world_turn = world_from_camera.rotation().cast<float>();
-  const Eigen::Vector3f eye = world_from_camera.translation().cast<float>();
-
-  ExactView view;
-  view.metres = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);
-  view.radiance = cv::Mat::zeros(camera.height, camera.width, CV_32FC3);
-  view.infrared = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      // With z = 1 the ray parameter is the depth.
-      const Eigen::Vector3f ray = camera.unproject(u, v, 1.0).cast<float>();
-      const auto [index, z] = tiles.first_hit(u, v, ray);
-      if (index < 0) continue;
-      const auto& hit = placed[static_cast<std::size_t>(index)];
-      const auto& material = primitives_[static_cast<std::size_t>(index)].material;
-      Surface surface = flatten(hit, hit.origin + z * (hit.turn * ray));
-      const Eigen::Vector3f normal = hit.turn.transpose() * surface.normal;  // camera's frame
-      const float cosine = std::abs(normal.dot(ray)) / ray.norm();
-      surface.point.footprint =
-          z / static_cast<float>(camera.fx) / std::sqrt(std::max(cosine, 0.05f));
-
-      const Eigen::Vector3f world = eye + world_turn * (z * ray);
-      const Eigen::Vector3f world_normal = world_turn * normal;
-      const Eigen::Vector3f to_lamp = lamp_ - world;
-      const float facing = world_normal.dot(to_lamp) / to_lamp.norm();
-      float light = ambient(world_normal);
-      if (facing > 0.0f) {
-        light += lamp_visibility(world) * facing * 3.0f / (1.0f + to_lamp.squaredNorm());
-      }
-      const Eigen::Vector3f colour = (light * albedo(material, surface.point)).cwiseMax(0.0f);
-      view.metres.at<float>(v, u) = z;
-      view.radiance.at<cv::Vec3f>(v, u) = {colour[0], colour[1], colour[2]};
-      view.infrared.at<float>(v, u) = cosine * material.infrared;
-    }
-  }
-  return view;
+  return Renderer(*this, camera, world_from_camera).render();
 }
 
 }  // namespace rprr

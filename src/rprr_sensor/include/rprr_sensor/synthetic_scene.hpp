@@ -67,7 +67,11 @@ class Scene {
 
   /// The view of a camera whose optical frame is placed by world_from_camera. One ray through each
   /// pixel centre; textures finer than a pixel fade out. A camera inside a solid does not see it.
+  /// Colour, not depth, is the mean of four rays where solids meet.
   ExactView render(const Camera& camera, const Pose& world_from_camera) const;
+
+  /// How much light falls on a surface with that normal at that place.
+  float light(const Eigen::Vector3f& world, const Eigen::Vector3f& normal) const;
 
  private:
   float lamp_visibility(const Eigen::Vector3f& world) const;
