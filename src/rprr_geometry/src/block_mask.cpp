@@ -5,109 +5,13 @@
 #include <array>
 #include <numeric>
 
-#include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/range_coder.hpp"
 
 namespace rprr {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
 enum Mode : std::uint8_t { kNone = 0, kAll = 1, kCoded = 2 };
-
-// Adaptive binary range coder: 12-bit probabilities of a zero, moved by 1/16 of their error.
-constexpr int kProbabilityBits = 12;
-constexpr std::uint32_t kTop = 1u << 24;
-
-struct Contexts {
-  std::array<std::uint16_t, 16> zero;
-  Contexts() { zero.fill(1u << (kProbabilityBits - 1)); }
-  void update(int context, bool bit) {
-    std::uint16_t& p = zero[static_cast<std::size_t>(context)];
-    if (bit) {
-      p = static_cast<std::uint16_t>(p - (p >> 4));
-    } else {
-      p = static_cast<std::uint16_t>(p + (((1 << kProbabilityBits) - p) >> 4));
-    }
-    p = std::clamp<std::uint16_t>(p, 32, (1u << kProbabilityBits) - 32);
-  }
-  std::uint32_t split(int context, std::uint32_t range) const {
-    return (range >> kProbabilityBits) * zero[static_cast<std::size_t>(context)];
-  }
-};
-
-class RangeEncoder {
- public:
-  void put(Contexts& contexts, int context, bool bit) {
-    const std::uint32_t split = contexts.split(context, range_);
-    if (bit) {
-      low_ += split;
-      range_ -= split;
-    } else {
-      range_ = split;
-    }
-    contexts.update(context, bit);
-    while (range_ < kTop) {
-      range_ <<= 8;
-      shift_low();
-    }
-  }
-  Bytes finish() {
-    for (int i = 0; i < 5; ++i) shift_low();
-    out_.erase(out_.begin());  // the first byte is always 0
-    while (!out_.empty() && out_.back() == 0) out_.pop_back();
-    return std::move(out_);
-  }
-
- private:
-  void shift_low() {
-    if (static_cast<std::uint32_t>(low_) < 0xFF000000u || (low_ >> 32) != 0) {
-      const auto carry = static_cast<std::uint8_t>(low_ >> 32);
-      out_.push_back(static_cast<std::uint8_t>(cache_ + carry));
-      for (; pending_ > 0; --pending_) out_.push_back(static_cast<std::uint8_t>(0xFF + carry));
-      cache_ = static_cast<std::uint8_t>(low_ >> 24);
-    } else {
-      ++pending_;
-    }
-    low_ = (low_ & 0x00FFFFFFu) << 8;
-  }
-
-  std::uint64_t low_ = 0;
-  std::uint32_t range_ = 0xFFFFFFFFu;
-  std::uint8_t cache_ = 0;
-  std::size_t pending_ = 0;
-  Bytes out_;
-};
-
-class RangeDecoder {
- public:
-  explicit RangeDecoder(ByteView bytes) : bytes_(bytes) {
-    for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next();
-  }
-  bool get(Contexts& contexts, int context) {
-    const std::uint32_t split = contexts.split(context, range_);
-    const bool bit = code_ >= split;
-    if (bit) {
-      code_ -= split;
-      range_ -= split;
-    } else {
-      range_ = split;
-    }
-    contexts.update(context, bit);
-    while (range_ < kTop) {
-      range_ <<= 8;
-      code_ = code_ << 8 | next();
-    }
-    return bit;
-  }
-  bool read_all() const { return at_ >= bytes_.size; }
-
- private:
-  std::uint32_t next() { return at_ < bytes_.size ? bytes_.data[at_++] : 0u; }  // zeros are trimmed
-
-  ByteView bytes_;
-  std::size_t at_ = 0;
-  std::uint32_t code_ = 0;
-  std::uint32_t range_ = 0xFFFFFFFFu;
-};
 
 // Visits blocks in row order with the context that both ends know by then.
 template <typename Visit>
@@ -161,10 +65,11 @@ Bytes encode_mask(const BlockMask& mask) {
   writer.put(static_cast<std::uint16_t>(grid.height));
   writer.put(static_cast<std::uint8_t>(mode));
   if (mode == kCoded) {
-    Contexts contexts;
+    std::array<AdaptiveBit, 16> bits;
     RangeEncoder encoder;
-    for_each_with_context(
-        grid, mask, [&](int block, int context) { encoder.put(contexts, context, mask[block]); });
+    for_each_with_context(grid, mask, [&](int block, int context) {
+      encoder.put(bits[static_cast<std::size_t>(context)], mask[block]);
+    });
     writer.append(encoder.finish());
   }
   Bytes bytes = writer.take();
@@ -188,10 +93,10 @@ Result<BlockMask> decode_mask(ByteView bytes, const BlockGrid& expected) {
   }
   BlockMask mask(expected, mode == kAll);
   if (mode == kCoded) {
-    Contexts contexts;
+    std::array<AdaptiveBit, 16> bits;
     RangeDecoder decoder(reader.get_view(reader.left()));
     for_each_with_context(expected, mask, [&](int block, int context) {
-      mask.set(block, decoder.get(contexts, context));
+      mask.set(block, decoder.get(bits[static_cast<std::size_t>(context)]));
     });
     if (!decoder.read_all()) return Error{"block mask with bytes left over"};
   }
