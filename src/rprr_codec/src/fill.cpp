@@ -182,7 +182,7 @@ void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
   push_pull(level);
   for (int sweep = 0; sweep < kBlockSweeps; ++sweep) relax_blocks(level);
   for (std::size_t i = 0; i < cells * kChannels; ++i) {
-    blocks.data[i] = static_cast<std::uint8_t>(level.colour[i] + 0.5f);
+    blocks.data[i] = cv::saturate_cast<std::uint8_t>(level.colour[i]);
   }
 }
 

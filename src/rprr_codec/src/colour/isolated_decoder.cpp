@@ -41,7 +41,7 @@ class IsolatedDecoder : public ColourDecoder {
     // A worker may have died since its last image (someone killed it): then once more, anew.
     for (const bool last_try : {!worker_.running(), true}) {
       if (!worker_.running()) {
-        const Result<bool> started = worker_.start(colour_worker_path(), limits_);
+        Result<bool> started = worker_.start(colour_worker_path(), limits_);
         if (!started) return started;
       }
       Transfer state = send_all(worker_.socket(), writer.bytes(), deadline);

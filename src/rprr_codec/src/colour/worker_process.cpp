@@ -16,8 +16,6 @@
 
 #include "colour/worker_protocol.hpp"
 
-extern char** environ;
-
 namespace rprr {
 namespace {
 
