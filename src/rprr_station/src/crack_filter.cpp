@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace rprr {
@@ -88,6 +90,33 @@ class Neighbourhood {
   int height_;
 };
 
+// Flags the invalid pixels of a row that may be closed in: along two axes there is something valid
+// on both sides, of whatever surface. Most pixels of large holes are settled here, without
+// branches. valid points into an image of 0 and 1 with a rim of zeros as wide as the reach.
+template <int kReach>
+void flag_candidates(const std::uint8_t* valid, std::ptrdiff_t stride, int width,
+                     std::uint8_t* candidate) {
+  for (int u = 0; u < width; ++u) {
+    const std::uint8_t* at = valid + u;
+    int ahead[4] = {0, 0, 0, 0};
+    int behind[4] = {0, 0, 0, 0};
+    for (int d = 1; d <= kReach; ++d) {
+      const std::ptrdiff_t steps[4] = {d, d * stride, d * stride + d, d * stride - d};
+      for (int axis = 0; axis < 4; ++axis) {
+        ahead[axis] |= at[steps[axis]];
+        behind[axis] |= at[-steps[axis]];
+      }
+    }
+    const int closed = (ahead[0] & behind[0]) + (ahead[1] & behind[1]) + (ahead[2] & behind[2]) +
+                       (ahead[3] & behind[3]);
+    candidate[u] = static_cast<std::uint8_t>(static_cast<int>(closed > 1) & (at[0] ^ 1));
+  }
+}
+
+using FlagCandidates = void (*)(const std::uint8_t*, std::ptrdiff_t, int, std::uint8_t*);
+constexpr std::array<FlagCandidates, kLargestRadius> kFlagCandidates{
+    flag_candidates<1>, flag_candidates<2>, flag_candidates<3>, flag_candidates<4>};
+
 // Flags the pixels of a row of whose eight neighbours more than half are valid and out of range.
 // Without branches, so that the compiler can vectorise it.
 void flag_suspects(const float* above, const float* row, const float* below, int width, float range,
@@ -143,25 +172,35 @@ void CrackFilter::close_cracks(cv::Mat& metres, cv::Mat& mended) {
   metres.copyTo(before_);  // mended values must not mend others: the result knows no direction
   const Neighbourhood neighbourhood(before_);
   const int reach = options_.largest_window / 2;
+  const cv::Rect inner(kLargestRadius, kLargestRadius, metres.cols, metres.rows);
+  valid_.create(metres.rows + 2 * kLargestRadius, metres.cols + 2 * kLargestRadius, CV_8UC1);
+  valid_.setTo(0);
   for (int v = 0; v < metres.rows; ++v) {
-    const auto* source = before_.ptr<float>(v);
-    auto* target = metres.ptr<float>(v);
-    auto* mark = mended.ptr<std::uint8_t>(v);
+    const auto* depth = before_.ptr<float>(v);
+    auto* valid = valid_(inner).ptr<std::uint8_t>(v);
+    for (int u = 0; u < metres.cols; ++u) valid[u] = depth[u] > 0.0f ? 1 : 0;
+  }
+  flags_.create(1, metres.cols, CV_8UC1);
+  auto* const candidates = flags_.ptr<std::uint8_t>();
+  for (int v = 0; v < metres.rows; ++v) {
+    kFlagCandidates[static_cast<std::size_t>(reach - 1)](
+        valid_(inner).ptr<std::uint8_t>(v), static_cast<std::ptrdiff_t>(valid_.step[0]),
+        metres.cols, candidates);
     for (int u = 0; u < metres.cols; ++u) {
-      if (source[u] > 0.0f) continue;
+      if (candidates[u] == 0) continue;
       const int radius = neighbourhood.closing_radius(u, v, reach, options_.range);
       if (radius == 0) continue;
-      target[u] = neighbourhood.window_median(u, v, radius);
-      mark[u] = 255;
+      metres.at<float>(v, u) = neighbourhood.window_median(u, v, radius);
+      mended.at<std::uint8_t>(v, u) = 255;
     }
   }
 }
 
 void CrackFilter::remove_ghosts(cv::Mat& metres, cv::Mat& mended) {
   metres.copyTo(before_);
-  suspects_.create(1, metres.cols, CV_8UC1);
-  suspects_.setTo(0);
-  auto* suspects = suspects_.ptr<std::uint8_t>();
+  flags_.create(1, metres.cols, CV_8UC1);
+  flags_.setTo(0);
+  auto* suspects = flags_.ptr<std::uint8_t>();
   for (int v = 1; v < metres.rows - 1; ++v) {
     flag_suspects(before_.ptr<float>(v - 1), before_.ptr<float>(v), before_.ptr<float>(v + 1),
                   metres.cols, options_.range, suspects);

@@ -45,7 +45,8 @@ class CrackFilter {
 
   CrackFilterOptions options_;
   cv::Mat before_;
-  cv::Mat suspects_;
+  cv::Mat valid_;
+  cv::Mat flags_;  // of one row
 };
 
 }  // namespace rprr
