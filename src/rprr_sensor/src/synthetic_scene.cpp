@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_sensor/synthetic_scene.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "intersection.hpp"
@@ -11,6 +13,7 @@ namespace rprr {
 namespace {
 
 constexpr int kShadowSide = 1024;
+constexpr int kShadowTile = 32;
 
 /// Directions from the lamp to a square and back: the lower half of an octahedral map. Coordinates
 /// in pixels of the shadow image.
@@ -26,6 +29,42 @@ Eigen::Vector3f shadow_direction(int column, int row) {
   const float x = 0.5f * (a + b);
   const float y = 0.5f * (a - b);
   return Eigen::Vector3f(x, y, std::abs(x) + std::abs(y) - 1.0f).normalized();
+}
+
+/// Solids whose bounding sphere reaches into the cone round a tile of the shadow image.
+std::vector<PlacedPrimitive> within_tile(const std::vector<PlacedPrimitive>& placed, int left,
+                                         int top) {
+  const int last = kShadowTile - 1;
+  const Eigen::Vector3f axis = shadow_direction(left + kShadowTile / 2, top + kShadowTile / 2);
+  float cone = 0.0f;  // rad
+  for (const int row : {top, top + last}) {
+    for (const int column : {left, left + last}) {
+      const float cosine = std::min(axis.dot(shadow_direction(column, row)), 1.0f);
+      cone = std::max(cone, std::acos(cosine));
+    }
+  }
+  cone = 1.2f * cone + 0.01f;  // the corners are not quite the farthest
+  std::vector<PlacedPrimitive> within;
+  for (const auto& solid : placed) {
+    const Eigen::Vector3f centre = solid.turn.transpose() * -solid.origin;
+    const float distance = centre.norm();
+    const float radius = solid.half.norm();
+    const float off = std::acos(std::clamp(axis.dot(centre) / distance, -1.0f, 1.0f));
+    if (distance <= radius || off < cone + std::asin(radius / distance)) within.push_back(solid);
+  }
+  return within;
+}
+
+/// Distance to the nearest solid in every direction of a tile.
+void bake_tile(const std::vector<PlacedPrimitive>& solids, int left, int top, cv::Mat& tile) {
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int column = 0; column < tile.cols; ++column) {
+      const Eigen::Vector3f direction = shadow_direction(left + column, top + row);
+      float nearest = kNoHit;
+      for (const auto& solid : solids) nearest = std::min(nearest, intersect(solid, direction));
+      tile.at<float>(row, column) = nearest;
+    }
+  }
 }
 
 /// Light that does not come from the lamp: sky-like from above, a little from one side.
@@ -46,15 +85,10 @@ void Scene::bake_shadows() {
   std::vector<PlacedPrimitive> placed;
   for (const auto& primitive : primitives_) placed.push_back(place(primitive, world_from_lamp));
   shadow_.create(kShadowSide, kShadowSide, CV_32FC1);
-  for (int row = 0; row < kShadowSide; ++row) {
-    auto* out = shadow_.ptr<float>(row);
-    for (int column = 0; column < kShadowSide; ++column) {
-      const Eigen::Vector3f direction = shadow_direction(column, row);
-      float nearest = kNoHit;
-      for (const auto& primitive : placed) {
-        nearest = std::min(nearest, intersect(primitive, direction));
-      }
-      out[column] = nearest;
+  for (int top = 0; top < kShadowSide; top += kShadowTile) {
+    for (int left = 0; left < kShadowSide; left += kShadowTile) {
+      cv::Mat tile = shadow_(cv::Rect(left, top, kShadowTile, kShadowTile));
+      bake_tile(within_tile(placed, left, top), left, top, tile);
     }
   }
 }
