@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rprr_geometry/preview.hpp"
+#include "rprr_pose/pose_frame.hpp"
+#include "rprr_pose/pose_status.hpp"
+#include "rprr_pose/preview_agreement.hpp"
+#include "rprr_pose/preview_alignment.hpp"
+#include "rprr_pose/preview_starts.hpp"
+
+namespace rprr {
+
+/// When a pose found from a preview is believed.
+struct PreviewLimits {
+  double min_overlap = 0.12;      // share of either view's cells that fall into the other on depth
+  double min_consistent = 0.75;   // share of those that agree, both ways
+  double max_violating = 0.06;    // share of those in seen free space, the worse way
+  double min_correlation = 0.75;  // of colours over agreeing cells
+  double min_fine_correlation = 0.3;
+  double min_margin = 0.06;             // of the score over the best distinct other pose
+  double max_sigma_translation = 0.02;  // metres
+  double max_sigma_rotation = 0.01;     // rad
+};
+
+struct PreviewPoseOptions {
+  StartRange range;
+  PreviewLimits limits;
+};
+
+/// What came of it.
+struct PreviewPose {
+  PoseStatus status = PoseStatus::kLittleOverlap;
+  Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
+  Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
+  double score = 0.0;                    // of the pose
+  double margin = 0.0;                   // over the best distinct other pose
+  Agreement b_in_a, a_in_b;
+  AlignmentSums sums;
+  bool searched = false;  // the full search was needed
+  int starts = 0;
+};
+
+/// The reference's side of the `preview` protocol: from b's preview alone, against a's own frame.
+/// Keeps a's views while the frame stays the same. One object serves one thread.
+class PreviewPoseEstimator {
+ public:
+  explicit PreviewPoseEstimator(const PreviewPoseOptions& options) : options_(options) {}
+
+  /// a: the reference's frame, with colour. warm: poses worth trying first (the last accepted one,
+  /// tf, odometry); the full search runs only if none of them verifies.
+  PreviewPose estimate(const PoseFrame& a, const BlockPreview& b, const Camera& b_camera,
+                       const std::vector<Pose>& warm);
+
+ private:
+  struct Candidate {
+    Pose motion;  // b to a
+    double score = 0.0;
+    Agreement b_in_a, a_in_b;
+    AlignmentSums sums;
+  };
+
+  void prepare(const PoseFrame& a);
+  void judge(Candidate& candidate) const;
+  bool refine(Candidate& candidate) const;
+  PreviewPose finish(const Candidate& best, double second) const;
+  std::vector<Candidate> search() const;
+
+  PreviewPoseOptions options_;
+  Stamp prepared_ = -1;
+  std::vector<PreviewView> a_;  // full block resolution first
+  std::vector<PreviewView> b_;
+  FixedView fine_;
+};
+
+}  // namespace rprr

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_pose/preview_pose.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace rprr {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr std::size_t kLevels = 3;          // 80x60, 40x30, 20x15 for VGA
+constexpr std::size_t kRefinedCoarse = 12;  // candidates that go on after the coarse alignment
+constexpr std::size_t kRefinedFine = 4;     // and to the full depth of a
+constexpr double kDistinctMetres = 0.15;
+constexpr double kDistinctDegrees = 6.0;
+
+std::vector<PreviewView> pyramid(PreviewView view) {
+  std::vector<PreviewView> levels{std::move(view)};
+  while (levels.size() < kLevels) levels.push_back(half_view(levels.back()));
+  return levels;
+}
+
+bool distinct(const Pose& left, const Pose& right) {
+  const Pose difference = left * right.inverse();
+  return (left.translation() - right.translation()).norm() > kDistinctMetres ||
+         rotation_angle(difference.linear()) > kDistinctDegrees * kDegree;
+}
+
+// Means of 8x8 pixels, one every four: as smooth as a block's colour, sampled twice as finely.
+cv::Mat smooth_luma(const cv::Mat& bgr, const Camera& camera, Camera& out_camera) {
+  const int columns = bgr.cols / 4;
+  const int rows = bgr.rows / 4;
+  cv::Mat quarter(rows, columns, CV_32FC1);
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      int sum = 0;
+      for (int v = 4 * r; v < 4 * r + 4; ++v) {
+        const auto* p = bgr.ptr<std::uint8_t>(v) + 12 * c;
+        for (int k = 0; k < 12; k += 3) sum += 29 * p[k] + 150 * p[k + 1] + 77 * p[k + 2];
+      }
+      quarter.at<float>(r, c) = static_cast<float>(sum) / (16.0f * 256.0f);
+    }
+  }
+  cv::Mat out(rows - 1, columns - 1, CV_32FC1);
+  for (int r = 0; r + 1 < rows; ++r) {
+    const auto* p = quarter.ptr<float>(r);
+    const auto* q = quarter.ptr<float>(r + 1);
+    auto* o = out.ptr<float>(r);
+    for (int c = 0; c + 1 < columns; ++c) o[c] = 0.25f * (p[c] + p[c + 1] + q[c] + q[c + 1]);
+  }
+  // The first mean covers pixels 0 to 7, so its centre is 3.5; the next is four pixels on.
+  out_camera = {out.cols,
+                out.rows,
+                camera.fx / 4,
+                camera.fy / 4,
+                (camera.cx - 3.5) / 4,
+                (camera.cy - 3.5) / 4};
+  return out;
+}
+
+cv::Mat metres_of(const DepthFrame& depth) {
+  cv::Mat out(depth.counts.size(), CV_32FC1);
+  const auto unit = static_cast<float>(depth.unit);
+  for (int v = 0; v < out.rows; ++v) {
+    const auto* in = depth.counts.ptr<std::uint16_t>(v);
+    auto* o = out.ptr<float>(v);
+    for (int u = 0; u < out.cols; ++u) o[u] = static_cast<float>(in[u]) * unit;
+  }
+  return out;
+}
+
+double share(double part, double whole) {
+  return whole > 0 ? part / whole : 0.0;
+}
+
+double worst_sigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
+}
+
+}  // namespace
+
+void PreviewPoseEstimator::prepare(const PoseFrame& a) {
+  if (prepared_ == a.stamp && !a_.empty()) return;
+  prepared_ = a.stamp;
+  a_ = pyramid(make_view(make_preview(a.depth, a.bgr), a.camera));
+  fine_.metres = metres_of(a.depth);
+  fine_.metres_camera = a.camera;
+  fine_.luma = smooth_luma(a.bgr, a.camera, fine_.luma_camera);
+}
+
+void PreviewPoseEstimator::judge(Candidate& candidate) const {
+  candidate.b_in_a = agreement(b_[0], a_[0], candidate.motion);
+  candidate.a_in_b = agreement(a_[0], b_[0], candidate.motion.inverse());
+  const auto one_way = [](const Agreement& way) {
+    return share(way.consistent - 2.0 * way.violating - 0.5 * way.hidden, way.valid);
+  };
+  const double geometry = 0.5 * (one_way(candidate.b_in_a) + one_way(candidate.a_in_b));
+  const double colour = 0.5 * (candidate.b_in_a.correlation + candidate.b_in_a.fine_correlation);
+  candidate.score = std::max(0.0, geometry) * std::max(0.0, colour);
+}
+
+bool PreviewPoseEstimator::refine(Candidate& candidate) const {
+  AlignmentOptions options;
+  options.iterations = 10;
+  options.gate = 0.12f;
+  options.last_gate = 0.05f;
+  FixedView fixed = fine_;
+  fixed.cells = &a_[0];
+  return align(b_[0], fixed, options, candidate.motion, candidate.sums);
+}
+
+std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
+  std::vector<Candidate> candidates;
+  for (const Pose& start : find_starts(b_[2], a_[2], options_.range)) {
+    Candidate candidate;
+    candidate.motion = start;
+    AlignmentOptions coarse;
+    coarse.iterations = 7;
+    coarse.gate = 0.6f;
+    coarse.last_gate = 0.2f;
+    FixedView fixed;
+    fixed.cells = &a_[1];
+    if (!align(b_[1], fixed, coarse, candidate.motion, candidate.sums)) continue;
+    judge(candidate);
+    if (candidate.score > 0.0) candidates.push_back(candidate);
+  }
+  const auto better = [](const Candidate& l, const Candidate& r) { return l.score > r.score; };
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  // The best that differ go on to the full block resolution.
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : candidates) {
+    if (kept.size() >= kRefinedCoarse) break;
+    if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+          const Pose difference = candidate.motion * other.motion.inverse();
+          return difference.translation().norm() > 0.05 ||
+                 rotation_angle(difference.linear()) > 2.0 * kDegree;
+        })) {
+      kept.push_back(candidate);
+    }
+  }
+  for (Candidate& candidate : kept) {
+    AlignmentOptions middle;
+    middle.iterations = 6;
+    middle.stride = 2;
+    middle.gate = 0.3f;
+    middle.last_gate = 0.1f;
+    FixedView fixed;
+    fixed.cells = &a_[0];
+    if (align(b_[0], fixed, middle, candidate.motion, candidate.sums)) judge(candidate);
+  }
+  std::stable_sort(kept.begin(), kept.end(), better);
+  if (kept.size() > kRefinedFine) kept.resize(kRefinedFine);
+  for (Candidate& candidate : kept) {
+    if (refine(candidate)) judge(candidate);
+  }
+  std::stable_sort(kept.begin(), kept.end(), better);
+  return kept;
+}
+
+PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) const {
+  PreviewPose out;
+  out.motion = best.motion.inverse();
+  out.score = best.score;
+  out.margin = best.score > 0.0 ? (best.score - second) / best.score : 0.0;
+  out.b_in_a = best.b_in_a;
+  out.a_in_b = best.a_in_b;
+  out.sums = best.sums;
+  // Left perturbation of b-to-a carried over to a-to-b; cells share their sensor's systematic
+  // errors, hence the residuals' own scale.
+  const double freedom = std::max(1, best.sums.geometry + best.sums.luma - 6);
+  const double scale = std::max(1.0, (best.sums.chi2_geometry + best.sums.chi2_luma) / freedom);
+  Matrix6 information = best.sums.information;
+  information.diagonal().array() += 1.0;
+  const Matrix6 a = adjoint(out.motion);
+  out.covariance = scale * a * information.inverse() * a.transpose();
+
+  const PreviewLimits& limits = options_.limits;
+  const double overlap = std::min(share(best.b_in_a.in_view, best.b_in_a.valid),
+                                  share(best.a_in_b.in_view, best.a_in_b.valid));
+  const double consistent = share(best.b_in_a.consistent + best.a_in_b.consistent,
+                                  best.b_in_a.in_view + best.a_in_b.in_view);
+  const double violating = std::max(share(best.b_in_a.violating, best.b_in_a.in_view),
+                                    share(best.a_in_b.violating, best.a_in_b.in_view));
+  if (overlap < limits.min_overlap) {
+    out.status = PoseStatus::kLittleOverlap;
+  } else if (violating > limits.max_violating) {
+    out.status = PoseStatus::kFreeSpaceViolated;
+  } else if (consistent < limits.min_consistent ||
+             best.b_in_a.correlation < limits.min_correlation ||
+             best.b_in_a.fine_correlation < limits.min_fine_correlation) {
+    out.status = PoseStatus::kInconsistent;
+  } else if (worst_sigma(out.covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
+             worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation) {
+    out.status = PoseStatus::kDegenerate;
+  } else if (out.margin < limits.min_margin) {
+    out.status = PoseStatus::kDegenerate;
+  } else {
+    out.status = PoseStatus::kAccepted;
+  }
+  return out;
+}
+
+PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPreview& b,
+                                           const Camera& b_camera, const std::vector<Pose>& warm) {
+  prepare(a);
+  b_.assign(1, make_view(b, b_camera));
+  for (const Pose& m_ab : warm) {
+    Candidate candidate;
+    candidate.motion = m_ab.inverse();
+    if (!refine(candidate)) continue;
+    judge(candidate);
+    const PreviewPose pose = finish(candidate, 0.0);
+    if (pose.status == PoseStatus::kAccepted) return pose;
+  }
+  b_ = pyramid(std::move(b_[0]));
+  const std::vector<Candidate> found = search();
+  if (found.empty()) {
+    PreviewPose none;
+    none.searched = true;
+    return none;
+  }
+  double second = 0.0;
+  for (const Candidate& other : found) {
+    if (distinct(other.motion, found[0].motion)) second = std::max(second, other.score);
+  }
+  PreviewPose pose = finish(found[0], second);
+  pose.searched = true;
+  pose.starts = static_cast<int>(found.size());
+  return pose;
+}
+
+}  // namespace rprr
