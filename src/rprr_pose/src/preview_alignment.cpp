@@ -52,15 +52,23 @@ struct Accumulator {
   Vector6f gradient = Vector6f::Zero();
   double chi2_geometry = 0, chi2_luma = 0;
   int geometry = 0, luma = 0;
+  int cells = 0, close = 0, before = 0, behind = 0;
   // Moments for the next exposure.
-  double m = 0, f = 0, mm = 0, mf = 0;
+  double m = 0, f = 0, mm = 0, ff = 0, mf = 0;
 
   void add(const Vector6f& row, float residual, float weight) {
     information.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     gradient.noalias() -= row * (weight * residual);
   }
   void see(float moving, float fixed) {
-    m += moving, f += fixed, mm += moving * moving, mf += moving * fixed;
+    m += moving, f += fixed, mm += moving * moving, ff += fixed * fixed, mf += moving * fixed;
+  }
+  double correlation() const {
+    if (luma < kFewestResiduals) return 0.0;
+    const double n = luma;
+    const double vm = mm / n - m / n * m / n;
+    const double vf = ff / n - f / n * f / n;
+    return (mf / n - m / n * f / n) / std::sqrt((vm + 20.0) * (vf + 20.0));
   }
   Exposure exposure() const {
     if (luma < kFewestResiduals) return {};
@@ -91,6 +99,7 @@ class Linearizer {
     Accumulator sums;
     for (std::size_t i = 0; i < moving_.size(); i += static_cast<std::size_t>(options_.stride)) {
       if (moving_.z[i] == 0.0f) continue;
+      ++sums.cells;
       const Eigen::Vector3f p =
           rotation * Eigen::Vector3f(moving_.x[i], moving_.y[i], moving_.z[i]) + translation;
       if (p.z() < kNearest) continue;
@@ -114,7 +123,11 @@ class Linearizer {
     const float z = fixed_depth(j, x, y);
     if (z == 0.0f) return;
     const float off = p.z() - z;
-    if (std::abs(off) > gate) return;
+    if (std::abs(off) > gate) {
+      ++(off < 0.0f ? sums.before : sums.behind);
+      return;
+    }
+    ++sums.close;
     const bool surface = cells_.nx[j] != 0.0f || cells_.ny[j] != 0.0f || cells_.nz[j] != 0.0f;
     if (surface) {
       // The fixed surface's point on the same ray, so that only the normal part of `off` counts.
@@ -209,6 +222,11 @@ bool align(const PreviewView& moving, const FixedView& fixed, const AlignmentOpt
     sums.chi2_luma = found.chi2_luma;
     sums.geometry = found.geometry;
     sums.luma = found.luma;
+    sums.cells = found.cells;
+    sums.close = found.close;
+    sums.before = found.before;
+    sums.behind = found.behind;
+    sums.correlation = found.correlation();
     if (found.geometry + found.luma < kFewestResiduals) return false;
     Matrix6 damped = sums.information;
     damped.diagonal() *= 1.0 + 1e-4;

@@ -10,9 +10,8 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr std::size_t kLevels = 3;          // 80x60, 40x30, 20x15 for VGA
-constexpr std::size_t kRefinedCoarse = 12;  // candidates that go on after the coarse alignment
-constexpr std::size_t kRefinedFine = 4;     // and to the full depth of a
+constexpr std::size_t kLevels = 3;   // 80x60, 40x30, 20x15 for VGA
+constexpr std::size_t kRefined = 4;  // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
 
@@ -22,10 +21,9 @@ std::vector<PreviewView> pyramid(PreviewView view) {
   return levels;
 }
 
-bool distinct(const Pose& left, const Pose& right) {
-  const Pose difference = left * right.inverse();
-  return (left.translation() - right.translation()).norm() > kDistinctMetres ||
-         rotation_angle(difference.linear()) > kDistinctDegrees * kDegree;
+bool differ(const Pose& left, const Pose& right, double metres, double degrees) {
+  return (left.translation() - right.translation()).norm() > metres ||
+         rotation_angle(left.linear() * right.linear().transpose()) > degrees * kDegree;
 }
 
 // Means of 8x8 pixels, one every four: as smooth as a block's colour, sampled twice as finely.
@@ -105,6 +103,7 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
 bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   AlignmentOptions options;
   options.iterations = 10;
+  options.stride = 2;
   options.gate = 0.12f;
   options.last_gate = 0.05f;
   FixedView fixed = fine_;
@@ -112,52 +111,46 @@ bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   return align(b_[0], fixed, options, candidate.motion, candidate.sums);
 }
 
-std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
-  std::vector<Candidate> candidates;
-  for (const Pose& start : find_starts(b_[2], a_[2], options_.range)) {
-    Candidate candidate;
-    candidate.motion = start;
-    AlignmentOptions coarse;
-    coarse.iterations = 7;
-    coarse.gate = 0.6f;
-    coarse.last_gate = 0.2f;
-    FixedView fixed;
-    fixed.cells = &a_[1];
-    if (!align(b_[1], fixed, coarse, candidate.motion, candidate.sums)) continue;
-    judge(candidate);
-    if (candidate.score > 0.0) candidates.push_back(candidate);
+// Aligns every candidate a little further, then keeps the best distinct ones.
+void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_t level,
+                                  const AlignmentOptions& options, std::size_t keep, double metres,
+                                  double degrees) const {
+  FixedView fixed;
+  fixed.cells = &a_[level];
+  for (Candidate& candidate : candidates) {
+    const bool found = align(b_[level], fixed, options, candidate.motion, candidate.sums);
+    candidate.score = found ? candidate.sums.score() : 0.0;
   }
-  const auto better = [](const Candidate& l, const Candidate& r) { return l.score > r.score; };
   std::stable_sort(candidates.begin(), candidates.end(), better);
-  // The best that differ go on to the full block resolution.
   std::vector<Candidate> kept;
   for (const Candidate& candidate : candidates) {
-    if (kept.size() >= kRefinedCoarse) break;
+    if (kept.size() >= keep || candidate.score <= 0.0) break;
     if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-          const Pose difference = candidate.motion * other.motion.inverse();
-          return difference.translation().norm() > 0.05 ||
-                 rotation_angle(difference.linear()) > 2.0 * kDegree;
+          return differ(candidate.motion, other.motion, metres, degrees);
         })) {
       kept.push_back(candidate);
     }
   }
-  for (Candidate& candidate : kept) {
-    AlignmentOptions middle;
-    middle.iterations = 6;
-    middle.stride = 2;
-    middle.gate = 0.3f;
-    middle.last_gate = 0.1f;
-    FixedView fixed;
-    fixed.cells = &a_[0];
-    if (align(b_[0], fixed, middle, candidate.motion, candidate.sums)) judge(candidate);
+  candidates = std::move(kept);
+}
+
+std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
+  std::vector<Candidate> candidates;
+  for (const Pose& start : find_starts(b_[2], a_[2], options_.range)) {
+    candidates.emplace_back();
+    candidates.back().motion = start;
   }
-  std::stable_sort(kept.begin(), kept.end(), better);
-  if (kept.size() > kRefinedFine) kept.resize(kRefinedFine);
-  for (Candidate& candidate : kept) {
+  narrow(candidates, 1, {3, 4, 0.8f, 0.5f, 16.0f}, 32, 0.04, 1.5);
+  narrow(candidates, 1, {4, 2, 0.4f, 0.2f, 14.0f}, 12, 0.05, 2.0);
+  narrow(candidates, 0, {4, 3, 0.25f, 0.12f, 12.0f}, 6, 0.05, 2.0);
+  for (Candidate& candidate : candidates) judge(candidate);
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  if (candidates.size() > kRefined) candidates.resize(kRefined);
+  for (Candidate& candidate : candidates) {
     if (refine(candidate)) judge(candidate);
   }
-  std::stable_sort(kept.begin(), kept.end(), better);
-  return kept;
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  return candidates;
 }
 
 PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) const {
@@ -224,7 +217,8 @@ PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPrevie
   }
   double second = 0.0;
   for (const Candidate& other : found) {
-    if (distinct(other.motion, found[0].motion)) second = std::max(second, other.score);
+    if (differ(other.motion, found[0].motion, kDistinctMetres, kDistinctDegrees))
+      second = std::max(second, other.score);
   }
   PreviewPose pose = finish(found[0], second);
   pose.searched = true;

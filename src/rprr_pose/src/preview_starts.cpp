@@ -3,15 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
+// Turns about the middle of the scene, yaw and pitch, degrees.
+constexpr std::pair<double, double> kTurns[] = {{0, 0},  {-14, 0}, {14, 0}, {-32, 0},
+                                                {32, 0}, {0, 12},  {0, -12}};
 constexpr float kLeastOverlap = 0.12f;  // of the moving view's cells
 
 struct Judged {
   Eigen::Matrix3d rotation;
+  float forward = 0.0f;  // metres along the fixed optical axis
   float score = 0.0f;
 };
 
@@ -19,6 +25,7 @@ struct Judged {
 struct Cells {
   std::vector<Eigen::Vector3f> rays;
   std::vector<float> q, luma, blue, red;
+  float typical_q = 0.5f;  // median, for cells without depth
 };
 
 Cells cells_of(const PreviewView& view) {
@@ -33,6 +40,14 @@ Cells cells_of(const PreviewView& view) {
       cells.red.push_back(view.red[i]);
     }
   }
+  std::vector<float> known;
+  std::copy_if(cells.q.begin(), cells.q.end(), std::back_inserter(known),
+               [](float q) { return q > 0.0f; });
+  if (!known.empty()) {
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    cells.typical_q = *middle;
+  }
   return cells;
 }
 
@@ -44,7 +59,8 @@ float correlation(float n, float a, float b, float aa, float bb, float ab) {
   return (ab - a * b / n) / std::sqrt((va + floor) * (vb + floor));
 }
 
-float judge(const Cells& moving, const PreviewView& fixed, const Eigen::Matrix3f& rotation) {
+float judge(const Cells& moving, const PreviewView& fixed, const Eigen::Matrix3f& rotation,
+            float forward) {
   const auto fx = static_cast<float>(fixed.camera.fx), cx = static_cast<float>(fixed.camera.cx);
   const auto fy = static_cast<float>(fixed.camera.fy), cy = static_cast<float>(fixed.camera.cy);
   float n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
@@ -52,7 +68,8 @@ float judge(const Cells& moving, const PreviewView& fixed, const Eigen::Matrix3f
   float da = 0, db = 0, daa = 0, dbb = 0, dab = 0;
   float depths = 0, agree = 0;
   for (std::size_t i = 0; i < moving.rays.size(); ++i) {
-    const Eigen::Vector3f ray = rotation * moving.rays[i];
+    Eigen::Vector3f ray = rotation * moving.rays[i];
+    ray.z() += forward * (moving.q[i] > 0.0f ? moving.q[i] : moving.typical_q);
     if (ray.z() < 0.2f) continue;
     const float inverse = 1.0f / ray.z();
     const float u = fx * ray.x() * inverse + cx + 0.5f;
@@ -98,8 +115,11 @@ std::vector<Judged> best_rotations(const PreviewView& moving, const PreviewView&
                         Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *
                         Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitZ()))
                            .toRotationMatrix();
-        one.score = judge(cells, fixed, one.rotation.cast<float>());
-        all.push_back(one);
+        for (const float steps : {0.0f, -0.4f, 0.4f}) {
+          one.forward = steps / cells.typical_q;
+          one.score = judge(cells, fixed, one.rotation.cast<float>(), one.forward);
+          all.push_back(one);
+        }
       }
     }
   }
@@ -110,7 +130,8 @@ std::vector<Judged> best_rotations(const PreviewView& moving, const PreviewView&
     if (kept.size() >= range.rotations || candidate.score <= 0.0f) break;
     const bool distinct = std::all_of(kept.begin(), kept.end(), [&](const Judged& other) {
       return rotation_angle(candidate.rotation * other.rotation.transpose()) >
-             1.6 * range.step * kDegree;
+                 1.6 * range.step * kDegree ||
+             candidate.forward != other.forward;
     });
     if (distinct) kept.push_back(candidate);
   }
@@ -142,14 +163,13 @@ std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewVie
   std::vector<Pose> starts;
   for (const Judged& judged : best_rotations(moving_coarse, fixed_coarse, range)) {
     const Eigen::Vector3d middle = middle_of(moving_coarse, fixed_coarse, judged.rotation);
-    for (const auto& [yaw, pitch] :
-         {std::pair{0.0, 0.0}, {-16.0, 0.0}, {16.0, 0.0}, {0.0, 12.0}, {0.0, -12.0}}) {
+    for (const auto& [yaw, pitch] : kTurns) {
       const Eigen::Matrix3d turn = (Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
                                     Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()))
                                        .toRotationMatrix();
       Pose start = Pose::Identity();
       start.linear() = turn * judged.rotation;
-      start.translation() = middle - turn * middle;
+      start.translation() = middle - turn * middle + Eigen::Vector3d(0, 0, judged.forward);
       starts.push_back(start);
     }
   }

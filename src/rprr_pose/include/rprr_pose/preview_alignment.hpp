@@ -33,6 +33,17 @@ struct AlignmentSums {
   double chi2_luma = 0.0;
   int geometry = 0;  // residuals of each kind
   int luma = 0;
+  // Of the cells that took part: how many had depth, landed within the gate, clearly before (in
+  // seen free space) or behind the fixed surface, and how their luma correlates.
+  int cells = 0, close = 0, before = 0, behind = 0;
+  double correlation = 0.0;
+
+  /// A cheap judgement while there are many candidates, at most 1.
+  double score() const {
+    if (cells == 0) return 0.0;
+    const double agreement = (close - 2.0 * before - 0.5 * behind) / cells;
+    return agreement > 0.0 && correlation > 0.0 ? agreement * correlation : 0.0;
+  }
 };
 
 /// Gauss-Newton on point-to-plane distances (fixed normals) and luma differences (after an affine

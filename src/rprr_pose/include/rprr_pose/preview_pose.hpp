@@ -15,7 +15,7 @@ namespace rprr {
 
 /// When a pose found from a preview is believed.
 struct PreviewLimits {
-  double min_overlap = 0.12;      // share of either view's cells that fall into the other on depth
+  double min_overlap = 0.2;       // share of either view's cells that fall into the other on depth
   double min_consistent = 0.75;   // share of those that agree, both ways
   double max_violating = 0.06;    // share of those in seen free space, the worse way
   double min_correlation = 0.75;  // of colours over agreeing cells
@@ -62,7 +62,14 @@ class PreviewPoseEstimator {
     AlignmentSums sums;
   };
 
+  static bool better(const Candidate& left, const Candidate& right) {
+    return left.score > right.score;
+  }
+
   void prepare(const PoseFrame& a);
+  void narrow(std::vector<Candidate>& candidates, std::size_t level,
+              const AlignmentOptions& options, std::size_t keep, double metres,
+              double degrees) const;
   void judge(Candidate& candidate) const;
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
