@@ -48,7 +48,8 @@ struct Exposure {
 };
 
 struct Accumulator {
-  Matrix6f information = Matrix6f::Zero();
+  Matrix6f geometric = Matrix6f::Zero();
+  Matrix6f photometric = Matrix6f::Zero();
   Vector6f gradient = Vector6f::Zero();
   double chi2_geometry = 0, chi2_luma = 0;
   int geometry = 0, luma = 0;
@@ -56,7 +57,7 @@ struct Accumulator {
   // Moments for the next exposure.
   double m = 0, f = 0, mm = 0, ff = 0, mf = 0;
 
-  void add(const Vector6f& row, float residual, float weight) {
+  void add(Matrix6f& information, const Vector6f& row, float residual, float weight) {
     information.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     gradient.noalias() -= row * (weight * residual);
   }
@@ -142,7 +143,7 @@ class Linearizer {
       row.head<3>() = n;
       row.tail<3>() = p.cross(n);
       const float weight = huber(normalised);
-      sums.add(row, residual, weight / variance);
+      sums.add(sums.geometric, row, residual, weight / variance);
       sums.chi2_geometry += weight * normalised * normalised;
       ++sums.geometry;
     }
@@ -172,7 +173,7 @@ class Linearizer {
     Vector6f row;
     row.head<3>() = slope;
     row.tail<3>() = p.cross(slope);
-    sums.add(row, residual, weight / (options_.luma_sigma * options_.luma_sigma));
+    sums.add(sums.photometric, row, residual, weight / (options_.luma_sigma * options_.luma_sigma));
   }
 
   float fixed_depth(std::size_t cell, float x, float y) const {
@@ -217,7 +218,9 @@ bool align(const PreviewView& moving, const FixedView& fixed, const AlignmentOpt
   exposure = linearizer.at(motion, gate, exposure).exposure();
   for (int i = 0; i < options.iterations; ++i) {
     const Accumulator found = linearizer.at(motion, gate, exposure);
-    sums.information = Matrix6f(found.information.selfadjointView<Eigen::Lower>()).cast<double>();
+    sums.geometric = Matrix6f(found.geometric.selfadjointView<Eigen::Lower>()).cast<double>();
+    sums.information =
+        sums.geometric + Matrix6f(found.photometric.selfadjointView<Eigen::Lower>()).cast<double>();
     sums.chi2_geometry = found.chi2_geometry;
     sums.chi2_luma = found.chi2_luma;
     sums.geometry = found.geometry;

@@ -10,8 +10,10 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr std::size_t kLevels = 3;   // 80x60, 40x30, 20x15 for VGA
-constexpr std::size_t kRefined = 4;  // candidates that are aligned to the full depth of a
+constexpr std::size_t kLevels = 3;        // 80x60, 40x30, 20x15 for VGA
+constexpr std::size_t kSlid = 6;          // candidates that are also tried some way along
+constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
+constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
 
@@ -134,6 +136,27 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   candidates = std::move(kept);
 }
 
+// Along a corridor or a wall depth lets a pose slide: the best candidates are tried again some way
+// along the two directions that depth knows least, for luma to tell.
+void PreviewPoseEstimator::slide(std::vector<Candidate>& candidates) const {
+  const std::size_t count = std::min(candidates.size(), kSlid);
+  for (std::size_t i = 0; i < count; ++i) {
+    Matrix6 scaled = candidates[i].sums.geometric;
+    scaled.rightCols<3>() /= kMetresPerRadian;
+    scaled.bottomRows<3>() /= kMetresPerRadian;
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+    for (int k = 0; k < 2; ++k) {
+      Twist direction = eigen.eigenvectors().col(k);
+      direction.tail<3>() /= kMetresPerRadian;
+      for (const double metres : {-0.5, -0.25, 0.25, 0.5}) {
+        Candidate slid;
+        slid.motion = exp_se3(metres * direction) * candidates[i].motion;
+        candidates.push_back(slid);
+      }
+    }
+  }
+}
+
 std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
   std::vector<Candidate> candidates;
   for (const Pose& start : find_starts(b_[2], a_[2], options_.range)) {
@@ -142,6 +165,8 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() cons
   }
   narrow(candidates, 1, {3, 4, 0.8f, 0.5f, 16.0f}, 32, 0.04, 1.5);
   narrow(candidates, 1, {4, 2, 0.4f, 0.2f, 14.0f}, 12, 0.05, 2.0);
+  slide(candidates);
+  narrow(candidates, 1, {4, 3, 0.25f, 0.2f, 14.0f}, 12, 0.05, 2.0);
   narrow(candidates, 0, {4, 3, 0.25f, 0.12f, 12.0f}, 6, 0.05, 2.0);
   for (Candidate& candidate : candidates) judge(candidate);
   std::stable_sort(candidates.begin(), candidates.end(), better);
@@ -171,19 +196,25 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   out.covariance = scale * a * information.inverse() * a.transpose();
 
   const PreviewLimits& limits = options_.limits;
-  const double overlap = std::min(share(best.b_in_a.in_view, best.b_in_a.valid),
-                                  share(best.a_in_b.in_view, best.a_in_b.valid));
-  const double consistent = share(best.b_in_a.consistent + best.a_in_b.consistent,
-                                  best.b_in_a.in_view + best.a_in_b.in_view);
-  const double violating = std::max(share(best.b_in_a.violating, best.b_in_a.in_view),
-                                    share(best.a_in_b.violating, best.a_in_b.in_view));
+  const Agreement& one = best.b_in_a;
+  const Agreement& other = best.a_in_b;
+  const double overlap = std::min(share(one.in_view, one.valid), share(other.in_view, other.valid));
+  const double consistent =
+      std::min(share(one.consistent, one.in_view), share(other.consistent, other.in_view));
+  const double violating =
+      std::max(share(one.violating, one.in_view), share(other.violating, other.in_view));
+  const double hidden =
+      std::max(share(one.hidden, one.in_view), share(other.hidden, other.in_view));
+  const double correlation = std::min(one.correlation, other.correlation);
+  const double fine = std::min(one.fine_correlation, other.fine_correlation);
+  out.evidence = correlation + fine + consistent - 2.0 * violating - 0.5 * hidden;
   if (overlap < limits.min_overlap) {
     out.status = PoseStatus::kLittleOverlap;
   } else if (violating > limits.max_violating) {
     out.status = PoseStatus::kFreeSpaceViolated;
-  } else if (consistent < limits.min_consistent ||
-             best.b_in_a.correlation < limits.min_correlation ||
-             best.b_in_a.fine_correlation < limits.min_fine_correlation) {
+  } else if (consistent < limits.min_consistent || correlation < limits.min_correlation ||
+             share(best.sums.chi2_luma, best.sums.luma) > limits.max_luma_chi2 ||
+             out.evidence < limits.min_evidence) {
     out.status = PoseStatus::kInconsistent;
   } else if (worst_sigma(out.covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
              worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation) {

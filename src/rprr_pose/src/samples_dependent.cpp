@@ -32,8 +32,8 @@ class SamplesDependent final : public ExchangeRole {
       on_samples(*samples, now, out);
     } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
       on_request(*update, now, out);
-    } else {
-      on_pose(std::get<RelativePoseMessage>(message), now, out);
+    } else if (const auto* pose = std::get_if<RelativePoseMessage>(&message)) {
+      on_pose(*pose, now, out);
     }
   }
 

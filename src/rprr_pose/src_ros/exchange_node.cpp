@@ -53,6 +53,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const
   update_ = nh_.advertise<rprr_msgs::PoseUpdate>(prefix + "update", 10);
   if (!listen_to_poses)
     pose_ = nh_.advertise<rprr_msgs::RelativePose>(prefix + "relative_pose", 10);
+  preview_ = nh_.advertise<rprr_msgs::BlockPreview>(prefix + "preview", 10);
   event_ = nh_.advertise<rprr_msgs::ExchangeEvent>(prefix + "exchange", 10);
   for (auto& [peer, role] : roles) sides_[peer].role = std::move(role);
   worker_ = std::make_unique<Worker>(kQueue);
@@ -82,6 +83,7 @@ void ExchangeNode::subscribe(const std::string& peer, bool listen_to_poses) {
   };
   listen("samples", rprr_msgs::SamplePoints());
   listen("update", rprr_msgs::PoseUpdate());
+  listen("preview", rprr_msgs::BlockPreview());
   if (listen_to_poses) listen("relative_pose", rprr_msgs::RelativePose());
 }
 
@@ -144,6 +146,8 @@ void ExchangeNode::publish(const PoseMessage& message) {
     samples_.publish(to_ros(*samples));
   } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
     update_.publish(to_ros(*update));
+  } else if (const auto* preview = std::get_if<PreviewMessage>(&message)) {
+    preview_.publish(to_ros(*preview));
   } else {
     pose_.publish(to_ros(std::get<RelativePoseMessage>(message)));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/PoseUpdate.h>
 #include <rprr_msgs/RelativePose.h>
 #include <rprr_msgs/SamplePoints.h>
@@ -51,7 +52,7 @@ class ExchangeNode {
   Health health_;
   Observer observer_;
   std::map<std::string, Side> sides_;  // worker thread only
-  ros::Publisher samples_, update_, pose_, event_;
+  ros::Publisher samples_, update_, preview_, pose_, event_;
   std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;

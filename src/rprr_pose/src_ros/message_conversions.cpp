@@ -24,6 +24,16 @@ rprr_msgs::PoseUpdate to_ros(const UpdateMessage& message) {
   return out;
 }
 
+rprr_msgs::BlockPreview to_ros(const PreviewMessage& message) {
+  rprr_msgs::BlockPreview out;
+  out.header.stamp = to_time(message.stamp);
+  out.header.frame_id = message.frame_id;
+  out.receiver = message.receiver;
+  out.exchange = message.exchange;
+  out.data = message.data;
+  return out;
+}
+
 rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   rprr_msgs::RelativePose out;
   out.header.stamp = to_time(message.stamp);
@@ -40,6 +50,7 @@ rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   out.iterations = message.iterations;
   out.inliers = message.inliers;
   out.residual = message.residual;
+  out.reference_camera = message.reference_camera;
   out.bytes_spent = message.bytes_spent;
   return out;
 }
@@ -51,6 +62,11 @@ SamplesMessage from_ros(const rprr_msgs::SamplePoints& message) {
 
 UpdateMessage from_ros(const rprr_msgs::PoseUpdate& message) {
   return {to_stamp(message.header.stamp), message.receiver, message.exchange, message.data};
+}
+
+PreviewMessage from_ros(const rprr_msgs::BlockPreview& message) {
+  return {to_stamp(message.header.stamp), message.header.frame_id, message.receiver,
+          message.exchange, message.data};
 }
 
 RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
@@ -72,6 +88,7 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   out.iterations = message.iterations;
   out.inliers = message.inliers;
   out.residual = message.residual;
+  out.reference_camera = message.reference_camera;
   out.bytes_spent = message.bytes_spent;
   return out;
 }
@@ -90,6 +107,7 @@ rprr_msgs::ExchangeEvent to_event(const FrameDecision& decision, double ms) {
     put_camera(writer, *decision.peer_camera);
     event.peer_camera = writer.take();
   }
+  event.peer_preview = decision.peer_preview;
   event.ms_pose = static_cast<float>(ms);
   event.exchange_bytes = decision.exchange_bytes;
   return event;

@@ -23,6 +23,7 @@ struct FrameDecision {
   std::string reason;          // why whole, for people
   RelativePoseMessage pose;    // with kSendSparse
   std::optional<Camera> peer_camera;
+  Bytes peer_preview;  // at the reference: b's preview as it came; empty if there is none
   std::uint32_t exchange_bytes = 0;  // pose messages of the exchange, both ways, serialised
 };
 

@@ -41,16 +41,27 @@ struct RelativePoseMessage {
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz)
   std::uint16_t iterations = 0;
   std::uint16_t inliers = 0;
-  float residual = 0.0f;  // RMS, metres
+  float residual = 0.0f;   // RMS, metres
+  Bytes reference_camera;  // empty if the dependent knows it
   std::uint32_t bytes_spent = 0;
 };
 
-using PoseMessage = std::variant<SamplesMessage, UpdateMessage, RelativePoseMessage>;
+struct PreviewMessage {
+  Stamp stamp = 0;       // of the sender's frame
+  std::string frame_id;  // optical frame of the sender
+  std::string receiver;
+  std::uint32_t exchange = 0;
+  Bytes data;
+};
+
+using PoseMessage =
+    std::variant<SamplesMessage, UpdateMessage, RelativePoseMessage, PreviewMessage>;
 
 /// Length of the message as ROS serialises it: what it costs on the radio, for each receiver.
 std::size_t serialised_bytes(const SamplesMessage& message);
 std::size_t serialised_bytes(const UpdateMessage& message);
 std::size_t serialised_bytes(const RelativePoseMessage& message);
+std::size_t serialised_bytes(const PreviewMessage& message);
 std::size_t serialised_bytes(const PoseMessage& message);
 
 /// Whom a message is for.

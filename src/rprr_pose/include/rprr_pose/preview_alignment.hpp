@@ -29,6 +29,7 @@ struct AlignmentOptions {
 /// Sums of the last iteration at its pose.
 struct AlignmentSums {
   Matrix6 information = Matrix6::Zero();  // of the left perturbation of the moving-to-fixed motion
+  Matrix6 geometric = Matrix6::Zero();    // the part of it that depth alone gives
   double chi2_geometry = 0.0;             // sum of squared residuals over their variance
   double chi2_luma = 0.0;
   int geometry = 0;  // residuals of each kind

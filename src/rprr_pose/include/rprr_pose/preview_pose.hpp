@@ -15,11 +15,15 @@ namespace rprr {
 
 /// When a pose found from a preview is believed.
 struct PreviewLimits {
-  double min_overlap = 0.2;       // share of either view's cells that fall into the other on depth
-  double min_consistent = 0.75;   // share of those that agree, both ways
-  double max_violating = 0.06;    // share of those in seen free space, the worse way
-  double min_correlation = 0.75;  // of colours over agreeing cells
-  double min_fine_correlation = 0.3;
+  double min_overlap = 0.18;      // share of either view's cells that fall into the other on depth
+  double min_consistent = 0.8;    // share of those that agree, the worse way
+  double max_violating = 0.04;    // share of those in seen free space, the worse way
+  double min_correlation = 0.75;  // of luma over agreeing cells, the worse way
+  double max_luma_chi2 = 3.0;  // mean squared luma residual over what coding and exposure explain
+  /// Sum of correlation, fine correlation and consistent share, less twice the violating and half
+  /// the hidden share, all the worse way: no single one separates right from wrong poses, together
+  /// they do.
+  double min_evidence = 2.0;
   double min_margin = 0.06;             // of the score over the best distinct other pose
   double max_sigma_translation = 0.02;  // metres
   double max_sigma_rotation = 0.01;     // rad
@@ -36,6 +40,7 @@ struct PreviewPose {
   Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
   double score = 0.0;                    // of the pose
+  double evidence = 0.0;                 // see PreviewLimits
   double margin = 0.0;                   // over the best distinct other pose
   Agreement b_in_a, a_in_b;
   AlignmentSums sums;
@@ -74,6 +79,7 @@ class PreviewPoseEstimator {
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
   std::vector<Candidate> search() const;
+  void slide(std::vector<Candidate>& candidates) const;
 
   PreviewPoseOptions options_;
   Stamp prepared_ = -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/ExchangeEvent.h>
 #include <rprr_msgs/PoseUpdate.h>
 #include <rprr_msgs/RelativePose.h>
@@ -16,8 +17,10 @@ namespace rprr {
 rprr_msgs::SamplePoints to_ros(const SamplesMessage& message);
 rprr_msgs::PoseUpdate to_ros(const UpdateMessage& message);
 rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message);
+rprr_msgs::BlockPreview to_ros(const PreviewMessage& message);
 SamplesMessage from_ros(const rprr_msgs::SamplePoints& message);
 UpdateMessage from_ros(const rprr_msgs::PoseUpdate& message);
+PreviewMessage from_ros(const rprr_msgs::BlockPreview& message);
 RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message);
 
 /// What the other nodelets of this robot hear. ms is the processor time that the exchange took
