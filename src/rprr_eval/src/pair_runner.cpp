@@ -52,19 +52,26 @@ bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& trut
 
 struct PairRunner::Robots {
   Robots(const Profile& profile, FrameEncoder frame_encoder)
-      : harness(make_samples_reference(options(profile.pose, kA, kB)),
-                make_samples_dependent(options(profile.pose, kB, kA)), kLatency),
+      : harness(reference_role(profile), dependent_role(profile), kLatency),
         validator(profile.validation),
         outgoing(kB),
         encoder(std::move(frame_encoder)),
         independent_decoder(make_local_colour_decoder()),
         station(station_options(profile.station), make_isolated_colour_decoder()) {}
 
-  static SamplesOptions options(SamplesOptions options, const std::string& self,
-                                const std::string& peer) {
+  template <typename Options>
+  static Options between(Options options, const std::string& self, const std::string& peer) {
     options.self = self;
     options.peer = peer;
     return options;
+  }
+  static std::unique_ptr<ExchangeRole> reference_role(const Profile& profile) {
+    return profile.use_previews ? make_preview_reference(between(profile.preview, kA, kB))
+                                : make_samples_reference(between(profile.samples, kA, kB));
+  }
+  static std::unique_ptr<ExchangeRole> dependent_role(const Profile& profile) {
+    return profile.use_previews ? make_preview_dependent(between(profile.preview, kB, kA))
+                                : make_samples_dependent(between(profile.samples, kB, kA));
   }
   static StationOptions station_options(StationOptions options) {
     options.robots = {kA, kB};

@@ -15,7 +15,7 @@ void read(const YAML::Node& file, const char* key, T& value) {
   if (file[key]) value = file[key].as<T>();
 }
 
-void read_pose(const YAML::Node& file, SamplesOptions& pose) {
+void read_samples(const YAML::Node& file, SamplesOptions& pose) {
   read(file, "sample_count", pose.sample_count);
   read(file, "max_iterations", pose.max_iterations);
   read(file, "converged_translation", pose.converged_translation);
@@ -30,6 +30,22 @@ void read_pose(const YAML::Node& file, SamplesOptions& pose) {
   read(file, "min_matched", pose.limits.min_matched);
   read(file, "max_sigma_translation", pose.limits.max_sigma_translation);
   read(file, "max_sigma_rotation", pose.limits.max_sigma_rotation);
+}
+
+void read_preview(const YAML::Node& file, PreviewOptions& pose) {
+  read(file, "preview_step", pose.step);
+  read(file, "preview_quality", pose.colour_quality);
+  read(file, "search_yaw", pose.search.range.yaw);
+  read(file, "search_pitch", pose.search.range.pitch);
+  read(file, "search_roll", pose.search.range.roll);
+  PreviewLimits& limits = pose.search.limits;
+  read(file, "preview_min_overlap", limits.min_overlap);
+  read(file, "preview_min_consistent", limits.min_consistent);
+  read(file, "preview_max_violating", limits.max_violating);
+  read(file, "preview_min_correlation", limits.min_correlation);
+  read(file, "preview_max_luma_chi2", limits.max_luma_chi2);
+  read(file, "preview_min_evidence", limits.min_evidence);
+  read(file, "preview_min_margin", limits.min_margin);
 }
 
 // Empty, or why a word is none of the two that a key knows.
@@ -52,8 +68,11 @@ std::string read_rest(const YAML::Node& file, Profile& profile) {
   read(file, "validation_min_pixels", profile.validation.min_pixels);
   read(file, "colour_codec", profile.codec.colour_codec);
   read(file, "colour_quality", profile.codec.colour_quality);
-  std::string wrong = choose(file, "unsent_fill", "black", UnsentFill::kBlack, "smooth",
-                             UnsentFill::kSmooth, profile.codec.fill);
+  std::string wrong =
+      choose(file, "protocol", "preview", true, "samples", false, profile.use_previews);
+  if (!wrong.empty()) return wrong;
+  wrong = choose(file, "unsent_fill", "black", UnsentFill::kBlack, "smooth", UnsentFill::kSmooth,
+                 profile.codec.fill);
   if (wrong.empty()) {
     wrong = choose(file, "synthesis", "forward", Synthesis::kForward, "backward",
                    Synthesis::kBackward, profile.station.synthesis.mode);
@@ -79,7 +98,8 @@ Result<Profile> load_profile(const std::string& name_or_path) {
   profile.name = name_or_path;
   try {
     const YAML::Node file = YAML::LoadFile(path);
-    read_pose(file, profile.pose);
+    read_samples(file, profile.samples);
+    read_preview(file, profile.preview);
     const std::string wrong = read_rest(file, profile);
     if (!wrong.empty()) return Error{path + ": " + wrong};
   } catch (const YAML::Exception& error) {

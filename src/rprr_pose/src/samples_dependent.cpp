@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdlib>
-#include <deque>
 #include <optional>
 #include <utility>
 
 #include "peer_cameras.hpp"
+#include "recent_frames.hpp"
 #include "rprr_pose/icp_bd.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_pose/samples_wire.hpp"
@@ -15,13 +14,12 @@ namespace {
 
 class SamplesDependent final : public ExchangeRole {
  public:
-  explicit SamplesDependent(SamplesOptions options) : options_(std::move(options)) {}
+  explicit SamplesDependent(SamplesOptions options)
+      : options_(std::move(options)),
+        frames_(options_.frames_kept, options_.max_stamp_difference) {}
 
   void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
-    if (!frames_.empty() && frame->stamp < frames_.back()->stamp)
-      frames_.clear();  // time went back
-    frames_.push_back(frame);
-    if (frames_.size() > options_.frames_kept) frames_.pop_front();
+    frames_.add(frame);
     if (!unclaimed_since_) unclaimed_since_ = now;
     if (early_ && !exchange_) begin(*std::exchange(early_, std::nullopt), now, out);
   }
@@ -44,7 +42,7 @@ class SamplesDependent final : public ExchangeRole {
     if (early_ && now >= early_deadline_) early_.reset();
     if (!exchange_ && unclaimed_since_ && now - *unclaimed_since_ >= options_.silence_timeout) {
       FrameDecision alone;
-      alone.frame = frames_.back();
+      alone.frame = frames_.newest();
       alone.reason = options_.peer + " is silent";
       out.decisions.push_back(alone);
       unclaimed_since_.reset();
@@ -76,7 +74,7 @@ class SamplesDependent final : public ExchangeRole {
       if (!content) out.problems.push_back(options_.peer + ": " + content.reason());
       return;
     }
-    const PoseFramePtr frame = nearest_frame(message.stamp);
+    const PoseFramePtr frame = frames_.nearest(message.stamp);
     if (!frame) {  // it may be about to arrive
       early_ = message;
       early_deadline_ = now + options_.step_timeout;
@@ -192,25 +190,14 @@ class SamplesDependent final : public ExchangeRole {
     last_finished_ = exchange_->number;
     // Frames that came after the claimed one are still unclaimed.
     unclaimed_since_.reset();
-    if (!frames_.empty() && frames_.back()->stamp > exchange_->frame->stamp) unclaimed_since_ = now;
+    if (frames_.newest() && frames_.newest()->stamp > exchange_->frame->stamp)
+      unclaimed_since_ = now;
     exchange_.reset();
-  }
-
-  PoseFramePtr nearest_frame(Stamp stamp) const {
-    PoseFramePtr best;
-    Stamp best_difference = options_.max_stamp_difference;
-    for (const PoseFramePtr& frame : frames_) {
-      const Stamp difference = std::abs(frame->stamp - stamp);
-      if (difference > best_difference) continue;
-      best_difference = difference;
-      best = frame;
-    }
-    return best;
   }
 
   const SamplesOptions options_;
   PeerCameras cameras_;
-  std::deque<PoseFramePtr> frames_;
+  RecentFrames frames_;
   std::optional<Exchange> exchange_;
   std::optional<SamplesMessage> early_;  // a new exchange whose frame is not here yet
   Stamp early_deadline_ = 0;

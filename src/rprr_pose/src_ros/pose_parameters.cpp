@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_parameters.hpp"
 
+#include <ros/console.h>
+
 namespace rprr {
 
 SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std::string& robot,
@@ -33,6 +35,43 @@ SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std
   seconds("silence_timeout", options.silence_timeout);
   seconds("max_frame_difference", options.max_stamp_difference);
   return options;
+}
+
+PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std::string& robot,
+                                    const std::string& peer) {
+  PreviewOptions options;
+  options.self = robot;
+  options.peer = peer;
+  const auto seconds = [&](const char* name, Duration& value) {
+    value = from_seconds(private_nh.param(name, to_seconds(value)));
+  };
+  private_nh.param("preview_step", options.step, options.step);
+  private_nh.param("preview_quality", options.colour_quality, options.colour_quality);
+  StartRange& range = options.search.range;
+  private_nh.param("search_yaw", range.yaw, range.yaw);
+  private_nh.param("search_pitch", range.pitch, range.pitch);
+  private_nh.param("search_roll", range.roll, range.roll);
+  PreviewLimits& limits = options.search.limits;
+  private_nh.param("preview_min_overlap", limits.min_overlap, limits.min_overlap);
+  private_nh.param("preview_min_consistent", limits.min_consistent, limits.min_consistent);
+  private_nh.param("preview_max_violating", limits.max_violating, limits.max_violating);
+  private_nh.param("preview_min_correlation", limits.min_correlation, limits.min_correlation);
+  private_nh.param("preview_max_luma_chi2", limits.max_luma_chi2, limits.max_luma_chi2);
+  private_nh.param("preview_min_evidence", limits.min_evidence, limits.min_evidence);
+  private_nh.param("preview_min_margin", limits.min_margin, limits.min_margin);
+  seconds("step_timeout", options.step_timeout);
+  seconds("min_period", options.min_period);
+  seconds("max_frame_difference", options.max_stamp_difference);
+  return options;
+}
+
+bool uses_previews(const ros::NodeHandle& private_nh) {
+  const auto protocol = private_nh.param<std::string>("protocol", "preview");
+  if (protocol != "preview" && protocol != "samples") {
+    ROS_ERROR_STREAM("~protocol is '" << protocol
+                                      << "'; it must be preview or samples: using preview");
+  }
+  return protocol != "samples";
 }
 
 }  // namespace rprr

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 
 namespace rprr {
@@ -12,5 +13,12 @@ namespace rprr {
 /// The private parameters of config/pose.yaml.
 SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std::string& robot,
                                     const std::string& peer);
+
+/// Likewise, for the preview protocol.
+PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std::string& robot,
+                                    const std::string& peer);
+
+/// ~protocol: "preview" (default) or "samples". Another word is said and becomes the default.
+bool uses_previews(const ros::NodeHandle& private_nh);
 
 }  // namespace rprr

@@ -22,6 +22,10 @@ class ReferenceExchangeNodelet : public nodelet::Nodelet {
     const auto peers = private_nh.param("peers", fallback);
     std::map<std::string, std::unique_ptr<ExchangeRole>> roles;
     for (const std::string& peer : peers) {
+      if (uses_previews(private_nh)) {
+        roles[peer] = make_preview_reference(read_preview_options(private_nh, robot, peer));
+        continue;
+      }
       SamplesOptions options = read_samples_options(private_nh, robot, peer);
       // A reference that restarts must not count through numbers that its peers still remember.
       options.first_exchange = static_cast<std::uint32_t>(ros::WallTime::now().sec) << 8 | 1;

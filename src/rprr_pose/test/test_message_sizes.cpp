@@ -15,7 +15,10 @@ TEST(MessageSizes, TheCoreCountsWhatRosSerialises) {
     UpdateMessage update{1, "b", 7, Bytes(length)};
     EXPECT_EQ(serialised_bytes(update), ros::serialization::serializationLength(to_ros(update)));
   }
+  PreviewMessage preview{1, "eyebug_b_rgb_optical_frame", "a", 7, Bytes(2500)};
+  EXPECT_EQ(serialised_bytes(preview), ros::serialization::serializationLength(to_ros(preview)));
   RelativePoseMessage pose;
+  pose.reference_camera = Bytes(20);
   pose.frame_id = "eyebug_a_rgb_optical_frame";
   pose.dependent = "eyebug_b";
   EXPECT_EQ(serialised_bytes(pose), ros::serialization::serializationLength(to_ros(pose)));

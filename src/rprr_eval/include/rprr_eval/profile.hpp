@@ -5,6 +5,7 @@
 
 #include "rprr_codec/frame_codec.hpp"
 #include "rprr_geometry/result.hpp"
+#include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_redundancy/validation.hpp"
 #include "rprr_station/station.hpp"
@@ -15,7 +16,9 @@ namespace rprr {
 /// nodelets (config/profiles). Keys that are not there keep their defaults.
 struct Profile {
   std::string name;
-  SamplesOptions pose;
+  bool use_previews = true;  // protocol: preview, or samples
+  PreviewOptions preview;
+  SamplesOptions samples;
   ValidationOptions validation;
   FrameCodecOptions codec;
   StationOptions station;

@@ -27,6 +27,8 @@ struct ByteView {
 /// Appends little-endian values to a byte vector.
 class ByteWriter {
  public:
+  ByteWriter() { bytes_.reserve(64); }
+
   template <typename T>
   void put(T value) {
     static_assert(std::is_arithmetic_v<T>, "numbers only");

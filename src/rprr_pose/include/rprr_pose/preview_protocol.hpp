@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_pose/exchange.hpp"
+#include "rprr_pose/preview_pose.hpp"
+
+namespace rprr {
+
+/// Settings of the `preview` protocol: b sends one small message for each frame, a answers with the
+/// pose, or why there is none.
+struct PreviewOptions {
+  std::string self;           // this robot
+  std::string peer;           // the other robot
+  double step = 0.003;        // dependent: of inverse depth in the preview, 1/metre
+  int colour_quality = 40;    // dependent: of the preview's colours, WebP's 0 to 100
+  PreviewPoseOptions search;  // reference
+  Duration step_timeout = from_seconds(0.5);  // dependent: for a's answer; reference: for its frame
+  Duration min_period = 0;                    // dependent: between previews
+  Duration max_stamp_difference = from_seconds(0.05);  // reference: between the robots' frames
+  std::size_t frames_kept = 30;                        // reference: recent frames to choose from
+  std::uint32_t first_exchange = 1;  // dependent: number of the first exchange, not 0
+};
+
+/// Role of a: finds the pose from b's preview, decides what is sent.
+std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options);
+/// Role of b: sends previews.
+std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& options);
+
+/// Content of rprr_msgs/BlockPreview: u8 version 1, u8 flags (bit 0: camera present), u32 hash of
+/// the sender's camera, u32 hash of the receiver's camera that the sender knows (0: none), camera
+/// (20 bytes) if present, then the sealed preview of rprr_geometry/preview.hpp. The first part is
+/// not sealed by itself: a wrong hash costs the exchange, nothing else.
+struct PreviewContent {
+  std::uint32_t camera_hash = 0;
+  std::uint32_t known_peer_hash = 0;
+  std::optional<Camera> camera;
+  Bytes preview;
+};
+Bytes encode_preview_content(const PreviewContent& content);
+/// Errors: malformed. The preview inside is still untrusted.
+Result<PreviewContent> decode_preview_content(ByteView bytes);
+
+}  // namespace rprr

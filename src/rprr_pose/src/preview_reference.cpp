@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "recent_frames.hpp"
+#include "rprr_pose/preview_protocol.hpp"
+
+namespace rprr {
+namespace {
+
+class PreviewReference final : public ExchangeRole {
+ public:
+  explicit PreviewReference(PreviewOptions options)
+      : options_(std::move(options)),
+        frames_(options_.frames_kept, options_.max_stamp_difference),
+        estimator_(options_.search) {}
+
+  void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
+    frames_.add(frame);
+    if (early_) answer(*std::exchange(early_, std::nullopt), now, out);
+  }
+
+  void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
+    const auto* preview = std::get_if<PreviewMessage>(&message);
+    if (!preview || preview->receiver != options_.self) return;
+    if (preview->exchange == 0 || preview->exchange == last_answered_) return;
+    answer(*preview, now, out);
+  }
+
+  void tick(Stamp now, RoleOutput&) override {
+    if (early_ && now >= early_deadline_) early_.reset();
+  }
+
+ private:
+  void answer(const PreviewMessage& message, Stamp now, RoleOutput& out) {
+    const PoseFramePtr frame = frames_.nearest(message.stamp);
+    if (!frame) {  // it may be about to arrive
+      early_ = message;
+      early_deadline_ = now + options_.step_timeout;
+      return;
+    }
+    last_answered_ = message.exchange;
+    send_whole(frame, message.exchange, out);
+    RelativePoseMessage pose;
+    pose.stamp = frame->stamp;
+    pose.frame_id = frame->frame_id;
+    pose.dependent_stamp = message.stamp;
+    pose.dependent = options_.peer;
+    pose.exchange = message.exchange;
+    pose.status = PoseStatus::kMalformed;
+    Result<PreviewContent> content = decode_preview_content(message.data);
+    const std::string wrong = content ? estimate(*frame, *content, pose) : content.reason();
+    if (!wrong.empty()) out.problems.push_back(options_.peer + ": " + wrong);
+    if (content && content->known_peer_hash != camera_hash(frame->camera)) {
+      ByteWriter writer;
+      put_camera(writer, frame->camera);
+      pose.reference_camera = writer.take();
+    }
+    pose.bytes_spent =
+        static_cast<std::uint32_t>(serialised_bytes(message) + serialised_bytes(pose));
+    out.send.emplace_back(pose);
+    if (pose.status != PoseStatus::kAccepted) return;
+    FrameDecision sparse;
+    sparse.action = FrameDecision::Action::kSendSparse;
+    sparse.frame = frame;
+    sparse.exchange = message.exchange;
+    sparse.peer = options_.peer;
+    sparse.pose = pose;
+    sparse.peer_camera = peer_camera_;
+    sparse.peer_preview = std::move(content->preview);
+    sparse.exchange_bytes = pose.bytes_spent;
+    out.decisions.push_back(std::move(sparse));
+  }
+
+  // Fills in the pose; empty, or what is wrong with the message.
+  std::string estimate(const PoseFrame& frame, const PreviewContent& content,
+                       RelativePoseMessage& pose) {
+    if (content.camera) peer_camera_ = *content.camera;
+    if (!peer_camera_ || camera_hash(*peer_camera_) != content.camera_hash) {
+      peer_camera_.reset();
+      return "its camera is not known here";
+    }
+    const Result<BlockPreview> preview = decode_preview(content.preview);
+    if (!preview) return preview.reason();
+    if (preview->grid.width != peer_camera_->width ||
+        preview->grid.height != peer_camera_->height) {
+      return "preview of another size than its camera";
+    }
+    std::vector<Pose> warm;
+    if (last_accepted_) warm.push_back(*last_accepted_);
+    const PreviewPose found = estimator_.estimate(frame, *preview, *peer_camera_, warm);
+    pose.status = found.status;
+    pose.motion = found.motion;
+    pose.covariance = found.covariance;
+    pose.iterations = found.searched ? static_cast<std::uint16_t>(1 + found.starts) : 1;
+    pose.inliers = static_cast<std::uint16_t>(std::min(65535, found.b_in_a.consistent));
+    if (found.sums.geometry > 0) {
+      pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
+    }
+    last_accepted_.reset();
+    if (found.status == PoseStatus::kAccepted) last_accepted_ = found.motion;
+    return {};
+  }
+
+  void send_whole(const PoseFramePtr& frame, std::uint32_t exchange, RoleOutput& out) const {
+    FrameDecision whole;
+    whole.frame = frame;
+    whole.exchange = exchange;
+    whole.peer = options_.peer;
+    whole.reason = "reference";
+    out.decisions.push_back(std::move(whole));
+  }
+
+  const PreviewOptions options_;
+  RecentFrames frames_;
+  PreviewPoseEstimator estimator_;
+  std::optional<Camera> peer_camera_;
+  std::optional<Pose> last_accepted_;
+  std::optional<PreviewMessage> early_;  // a preview whose frame is not here yet
+  Stamp early_deadline_ = 0;
+  std::uint32_t last_answered_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options) {
+  return std::make_unique<PreviewReference>(options);
+}
+
+}  // namespace rprr

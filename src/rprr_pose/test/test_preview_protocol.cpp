@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_pose/preview_protocol.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "textured_views.hpp"
+
+namespace rprr {
+namespace {
+
+PreviewOptions options_for(const std::string& self, const std::string& peer) {
+  PreviewOptions options;
+  options.self = self;
+  options.peer = peer;
+  return options;
+}
+
+const Pose kTruth = test_motion(0.12, 6.0);
+PoseFramePtr frame_a(Stamp stamp = 1000) {
+  return textured_frame(Pose::Identity(), stamp, "a");
+}
+PoseFramePtr frame_b(Stamp stamp = 1000) {
+  return textured_frame(kTruth, stamp, "b");
+}
+
+class PreviewProtocol : public ::testing::Test {
+ protected:
+  PreviewProtocol()
+      : reference(make_preview_reference(options_for("a", "b"))),
+        dependent(make_preview_dependent(options_for("b", "a"))) {}
+
+  // One exchange over a channel without faults; returns what a and b decided.
+  void exchange(Stamp stamp) {
+    at_a = at_b = {};
+    reference->offer(frame_a(stamp), now, at_a);
+    dependent->offer(frame_b(stamp), now, at_b);
+    for (const PoseMessage& message : at_b.send) reference->receive(message, now, at_a);
+    for (const PoseMessage& message : at_a.send) dependent->receive(message, now, at_b);
+  }
+  const RelativePoseMessage& pose() const { return std::get<RelativePoseMessage>(at_a.send.at(0)); }
+
+  std::unique_ptr<ExchangeRole> reference, dependent;
+  RoleOutput at_a, at_b;
+  Stamp now = 0;
+};
+
+TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
+  exchange(1000);
+  ASSERT_EQ(at_b.send.size(), 1u);
+  ASSERT_EQ(at_a.send.size(), 1u);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
+  EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
+  ASSERT_EQ(at_a.decisions.size(), 2u) << "send whole as reference, then predict";
+  EXPECT_EQ(at_a.decisions[1].action, FrameDecision::Action::kSendSparse);
+  EXPECT_TRUE(decode_preview(at_a.decisions[1].peer_preview));
+  ASSERT_EQ(at_b.decisions.size(), 1u);
+  EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendSparse);
+  ASSERT_TRUE(at_b.decisions[0].peer_camera);
+  EXPECT_EQ(at_b.decisions[0].exchange_bytes,
+            serialised_bytes(at_b.send[0]) + serialised_bytes(at_a.send[0]));
+  EXPECT_EQ(pose().bytes_spent, at_b.decisions[0].exchange_bytes);
+}
+
+TEST_F(PreviewProtocol, IntrinsicsCrossTheRadioOnce) {
+  exchange(1000);
+  const std::size_t first = serialised_bytes(at_b.send[0]);
+  EXPECT_FALSE(pose().reference_camera.empty());
+  exchange(2000);
+  EXPECT_EQ(serialised_bytes(at_b.send[0]) + kCameraBytes, first);
+  EXPECT_TRUE(pose().reference_camera.empty());
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+}
+
+TEST_F(PreviewProtocol, ARestartedReferenceIsToldTheCameraAgain) {
+  exchange(1000);
+  reference = make_preview_reference(options_for("a", "b"));
+  exchange(2000);
+  EXPECT_EQ(pose().status, PoseStatus::kMalformed);
+  EXPECT_EQ(at_b.decisions.at(0).action, FrameDecision::Action::kSendWhole);
+  exchange(3000);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+}
+
+TEST_F(PreviewProtocol, WithoutAnAnswerBGoesOutWhole) {
+  dependent->offer(frame_b(), 0, at_b);
+  dependent->tick(from_seconds(0.4), at_b);
+  EXPECT_TRUE(at_b.decisions.empty());
+  dependent->tick(from_seconds(0.6), at_b);
+  ASSERT_EQ(at_b.decisions.size(), 1u);
+  EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
+  EXPECT_FALSE(at_b.decisions[0].reason.empty());
+}
+
+TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
+  dependent->offer(frame_b(), 0, at_b);
+  reference->receive(at_b.send.at(0), 0, at_a);
+  EXPECT_TRUE(at_a.send.empty());
+  reference->offer(frame_a(), 0, at_a);
+  ASSERT_EQ(at_a.send.size(), 1u);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+}
+
+TEST_F(PreviewProtocol, DoubledPreviewsAreAnsweredOnce) {
+  reference->offer(frame_a(), 0, at_a);
+  dependent->offer(frame_b(), 0, at_b);
+  reference->receive(at_b.send.at(0), 0, at_a);
+  reference->receive(at_b.send.at(0), 0, at_a);
+  EXPECT_EQ(at_a.send.size(), 1u);
+}
+
+TEST_F(PreviewProtocol, MessagesForOthersAreIgnored) {
+  reference->offer(frame_a(), 0, at_a);
+  dependent->offer(frame_b(), 0, at_b);
+  auto message = std::get<PreviewMessage>(at_b.send.at(0));
+  message.receiver = "c";
+  reference->receive(message, 0, at_a);
+  EXPECT_TRUE(at_a.send.empty());
+}
+
+TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
+  std::mt19937 random(5);
+  dependent->offer(frame_b(), 0, at_b);
+  const auto good = std::get<PreviewMessage>(at_b.send.at(0));
+  reference->offer(frame_a(), 0, at_a);
+  for (std::uint32_t trial = 0; trial < 300; ++trial) {
+    PreviewMessage message = good;
+    message.exchange = 100 + trial;
+    for (int i = 0; i < 3; ++i) {
+      message.data[random() % 40] = static_cast<std::uint8_t>(random());
+    }
+    if (trial % 3 == 0) message.data.resize(random() % message.data.size());
+    reference->receive(message, 0, at_a);
+  }
+  EXPECT_FALSE(at_a.problems.empty());
+  for (Stamp stamp : {5000, 6000}) exchange(stamp);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+}
+
+TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
+  dependent->offer(frame_b(), 0, at_b);
+  RelativePoseMessage bad;
+  bad.dependent = "b";
+  bad.exchange = 1;
+  bad.status = PoseStatus::kAccepted;
+  bad.motion.linear() *= 2.0;
+  dependent->receive(bad, 0, at_b);
+  ASSERT_EQ(at_b.decisions.size(), 1u);
+  EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
+  EXPECT_FALSE(at_b.problems.empty());
+}
+
+TEST(PreviewContent, RoundTripsAndRefusesCuts) {
+  PreviewContent content;
+  content.camera = rounded_for_wire(kTestCamera);
+  content.camera_hash = camera_hash(kTestCamera);
+  content.known_peer_hash = 9;
+  content.preview = {1, 2, 3};
+  const Bytes bytes = encode_preview_content(content);
+  const Result<PreviewContent> back = decode_preview_content(bytes);
+  ASSERT_TRUE(back) << back.reason();
+  EXPECT_EQ(back->preview, content.preview);
+  EXPECT_EQ(back->known_peer_hash, 9u);
+  for (std::size_t size = 0; size < bytes.size() - 3; ++size) {
+    EXPECT_FALSE(decode_preview_content(ByteView(bytes).first(size))) << "cut to " << size;
+  }
+}
+
+}  // namespace
+}  // namespace rprr
