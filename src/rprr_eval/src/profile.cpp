@@ -10,9 +10,16 @@
 namespace rprr {
 namespace {
 
+// Throws YAML::Exception that names the key, where its value cannot be read.
 template <typename T>
 void read(const YAML::Node& file, const char* key, T& value) {
-  if (file[key]) value = file[key].as<T>();
+  const YAML::Node node = file[key];
+  if (!node) return;
+  try {
+    value = node.as<T>();
+  } catch (const YAML::Exception&) {
+    throw YAML::Exception(node.Mark(), std::string(key) + " has a value of another kind");
+  }
 }
 
 void read_samples(const YAML::Node& file, SamplesOptions& pose) {
@@ -53,7 +60,8 @@ template <typename T>
 std::string choose(const YAML::Node& file, const char* key, const char* first, T first_value,
                    const char* second, T second_value, T& value) {
   if (!file[key]) return {};
-  const auto word = file[key].as<std::string>();
+  std::string word;
+  read(file, key, word);
   if (word == first) {
     value = first_value;
   } else if (word == second) {
@@ -98,6 +106,7 @@ Result<Profile> load_profile(const std::string& name_or_path) {
   profile.name = name_or_path;
   try {
     const YAML::Node file = YAML::LoadFile(path);
+    if (!file.IsMap()) return Error{path + ": no list of `key: value` lines"};
     read_samples(file, profile.samples);
     read_preview(file, profile.preview);
     const std::string wrong = read_rest(file, profile);
