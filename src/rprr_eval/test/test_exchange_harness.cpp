@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_eval/exchange_harness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rprr_eval/metrics.hpp"
+#include "rprr_pose/samples_protocol.hpp"
+#include "rprr_sensor/motion.hpp"
+#include "synthetic_walk.hpp"
+
+namespace rprr {
+namespace {
+
+constexpr Duration kLatency = from_seconds(0.005);
+
+PoseFramePtr frame_of(const WalkFrame& seen, Stamp stamp, const std::string& robot) {
+  auto frame = std::make_shared<PoseFrame>();
+  frame->stamp = stamp;
+  frame->frame_id = robot + "_rgb_optical_frame";
+  frame->camera = rounded_for_wire(example_sensor_a(320, 240).camera);
+  frame->depth = seen.image.depth;
+  return frame;
+}
+
+ExchangeHarness samples_harness(Duration latency = kLatency) {
+  SamplesOptions a;
+  a.self = "a";
+  a.peer = "b";
+  SamplesOptions b;
+  b.self = "b";
+  b.peer = "a";
+  return {make_samples_reference(a), make_samples_dependent(b), latency};
+}
+
+TEST(ExchangeHarness, NeighboursOfAWalkAgreeOnTheTruePose) {
+  const WalkFrame a = walk_frame(0);
+  const WalkFrame b = walk_frame(1);
+  ExchangeHarness harness = samples_harness();
+  const ExchangeOutcome outcome = harness.run(frame_of(a, 1000, "a"), frame_of(b, 1000, "b"));
+  ASSERT_TRUE(outcome.pose);
+  EXPECT_EQ(outcome.pose->status, PoseStatus::kAccepted) << reason_of(outcome.pose->status);
+  const PoseError error =
+      pose_error(outcome.pose->motion, relative_motion(a.world_from_camera, b.world_from_camera));
+  EXPECT_LT(error.metres, 0.04);
+  EXPECT_LT(error.degrees, 1.5);
+  ASSERT_TRUE(outcome.at_reference) << "a is told to predict";
+  EXPECT_EQ(outcome.at_reference->action, FrameDecision::Action::kSendSparse);
+  EXPECT_EQ(outcome.at_dependent.action, FrameDecision::Action::kSendSparse);
+  EXPECT_EQ(outcome.at_dependent.frame->stamp, 1000);
+}
+
+TEST(ExchangeHarness, CountsWhatBothRobotsCount) {
+  ExchangeHarness harness = samples_harness();
+  const ExchangeOutcome outcome =
+      harness.run(frame_of(walk_frame(0), 1000, "a"), frame_of(walk_frame(1), 1000, "b"));
+  ASSERT_TRUE(outcome.pose);
+  EXPECT_EQ(outcome.bytes, outcome.pose->bytes_spent);
+  EXPECT_EQ(outcome.bytes, outcome.at_dependent.exchange_bytes);
+  EXPECT_EQ(outcome.messages, 2 * outcome.pose->iterations + 3);
+  EXPECT_EQ(outcome.elapsed, outcome.messages * kLatency)
+      << "each message waits for the one before";
+  EXPECT_GT(outcome.seconds_compute, 0.0);
+}
+
+TEST(ExchangeHarness, RobotsKeepWhatTheyKnowBetweenExchanges) {
+  const WalkFrame a = walk_frame(0);
+  const WalkFrame b = walk_frame(1);
+  ExchangeHarness harness = samples_harness();
+  const ExchangeOutcome first = harness.run(frame_of(a, 1000, "a"), frame_of(b, 1000, "b"));
+  const ExchangeOutcome second = harness.run(frame_of(a, 2000, "a"), frame_of(b, 2000, "b"));
+  ASSERT_TRUE(first.pose && second.pose);
+  EXPECT_EQ(second.pose->status, PoseStatus::kAccepted);
+  EXPECT_EQ(second.pose->exchange, first.pose->exchange + 1);
+  EXPECT_LT(second.bytes / static_cast<std::size_t>(second.messages),
+            first.bytes / static_cast<std::size_t>(first.messages))
+      << "intrinsics cross once";
+}
+
+TEST(ExchangeHarness, TheSameFramesLeadToTheSameOutcome) {
+  const auto run = [] {
+    return samples_harness().run(frame_of(walk_frame(0), 1000, "a"),
+                                 frame_of(walk_frame(1), 1000, "b"));
+  };
+  const ExchangeOutcome first = run();
+  const ExchangeOutcome second = run();
+  ASSERT_TRUE(first.pose && second.pose);
+  EXPECT_EQ(first.bytes, second.bytes);
+  EXPECT_TRUE(first.pose->motion.matrix() == second.pose->motion.matrix());
+}
+
+TEST(ExchangeHarness, ViewsThatShareNothingSendBWhole) {
+  ExchangeHarness harness = samples_harness();
+  const ExchangeOutcome outcome =
+      harness.run(frame_of(walk_frame(0), 1000, "a"), frame_of(walk_frame(50), 1000, "b"));
+  ASSERT_TRUE(outcome.pose);
+  EXPECT_NE(outcome.pose->status, PoseStatus::kAccepted);
+  EXPECT_FALSE(outcome.at_reference);
+  EXPECT_EQ(outcome.at_dependent.action, FrameDecision::Action::kSendWhole);
+  EXPECT_FALSE(outcome.at_dependent.reason.empty());
+  EXPECT_EQ(outcome.at_dependent.frame->stamp, 1000);
+}
+
+TEST(ExchangeHarness, ALatencyBeyondTheTimeoutsSendsBWhole) {
+  ExchangeHarness harness = samples_harness(from_seconds(3.0));
+  const ExchangeOutcome outcome =
+      harness.run(frame_of(walk_frame(0), 1000, "a"), frame_of(walk_frame(1), 1000, "b"));
+  EXPECT_EQ(outcome.at_dependent.action, FrameDecision::Action::kSendWhole);
+  EXPECT_FALSE(outcome.at_dependent.reason.empty());
+}
+
+// A role that does nothing but note what it is given; decides when it got a message, if at all.
+class Listener final : public ExchangeRole {
+ public:
+  Listener(std::vector<Stamp>& arrivals, int messages_to_send, bool decides)
+      : arrivals_(arrivals), to_send_(messages_to_send), decides_(decides) {}
+  void offer(const PoseFramePtr& frame, Stamp /*now*/, RoleOutput& out) override {
+    frame_ = frame;
+    for (int i = 0; i < to_send_; ++i) {
+      UpdateMessage message;
+      message.exchange = static_cast<std::uint32_t>(i);
+      out.send.emplace_back(message);
+    }
+  }
+  void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
+    EXPECT_EQ(std::get<UpdateMessage>(message).exchange, arrivals_.size()) << "out of order";
+    arrivals_.push_back(now);
+    if (!decides_) return;
+    out.decisions.emplace_back();
+    out.decisions.back().frame = frame_;
+  }
+  void tick(Stamp /*now*/, RoleOutput& /*out*/) override {}
+
+ private:
+  std::vector<Stamp>& arrivals_;
+  int to_send_;
+  bool decides_;
+  PoseFramePtr frame_;
+};
+
+TEST(ExchangeHarness, MessagesArriveInOrderOneLatencyLater) {
+  std::vector<Stamp> unused;
+  std::vector<Stamp> arrivals;
+  ExchangeHarness harness(std::make_unique<Listener>(unused, 3, false),
+                          std::make_unique<Listener>(arrivals, 0, true), kLatency);
+  const auto frame = std::make_shared<PoseFrame>();
+  const ExchangeOutcome outcome = harness.run(frame, frame);
+  EXPECT_EQ(arrivals, std::vector<Stamp>({kLatency, kLatency, kLatency}));
+  EXPECT_EQ(outcome.messages, 3);
+  EXPECT_EQ(outcome.elapsed, kLatency);
+}
+
+TEST(ExchangeHarness, RolesThatNeverDecideDoNotHangIt) {
+  std::vector<Stamp> unused;
+  ExchangeHarness harness(std::make_unique<Listener>(unused, 0, false),
+                          std::make_unique<Listener>(unused, 0, false), kLatency);
+  const auto frame = std::make_shared<PoseFrame>();
+  const ExchangeOutcome outcome = harness.run(frame, frame);
+  EXPECT_FALSE(outcome.pose);
+  EXPECT_EQ(outcome.messages, 0);
+}
+
+}  // namespace
+}  // namespace rprr
