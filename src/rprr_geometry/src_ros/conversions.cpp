@@ -8,6 +8,16 @@
 
 namespace rprr {
 namespace encodings = sensor_msgs::image_encodings;
+namespace {
+
+// cv_bridge and OpenCV throw on sizes that do not fit.
+Error not_what_it_says(const std::exception& error) {
+  return {std::string("image message does not hold what its size and encoding say; check its "
+                      "publisher: ") +
+          error.what()};
+}
+
+}  // namespace
 
 Stamp to_stamp(const ros::Time& time) {
   return static_cast<Stamp>(time.sec) * 1000000000 + time.nsec;
@@ -68,13 +78,13 @@ Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, double unit
     const auto shared =
         cv_bridge::toCvShare(image, nullptr, counts ? encodings::TYPE_16UC1 : image.encoding);
     return depth_frame_from_image(shared->image, unit_for_float);
-  } catch (const std::exception& error) {  // cv_bridge and OpenCV throw on sizes that do not fit
-    return Error{std::string("image message does not hold what it says: ") + error.what()};
+  } catch (const std::exception& error) {
+    return not_what_it_says(error);
   }
 }
 
 Result<cv::Mat> bgr_from_image(const sensor_msgs::Image& image) {
-  if (image.data.empty()) return Error{"colour image is empty"};
+  if (image.data.empty()) return Error{"colour image is empty; check its publisher"};
   const bool known = encodings::isColor(image.encoding) || encodings::isMono(image.encoding) ||
                      encodings::isBayer(image.encoding);
   if (!known || encodings::bitDepth(image.encoding) != 8) {
@@ -83,8 +93,8 @@ Result<cv::Mat> bgr_from_image(const sensor_msgs::Image& image) {
   }
   try {
     return cv_bridge::toCvShare(image, nullptr, encodings::BGR8)->image;
-  } catch (const std::exception& error) {  // cv_bridge and OpenCV throw on sizes that do not fit
-    return Error{std::string("image message does not hold what it says: ") + error.what()};
+  } catch (const std::exception& error) {
+    return not_what_it_says(error);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "rprr_geometry_ros/rgbd_subscriber.hpp"
 
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <sstream>
 
 #include "rprr_geometry_ros/conversions.hpp"
@@ -127,6 +128,11 @@ void RgbdSubscriber::emit(const sensor_msgs::ImageConstPtr& rgb,
   if (!bgr) return health_.error("colour unusable", rgb_topic + ": " + bgr.reason());
   const Result<DepthFrame> counts = depth_from_image(*depth, depth_unit_);
   if (!counts) return health_.error("depth unusable", depth_topic + ": " + counts.reason());
+  if (cv::countNonZero(counts->counts) == 0) {  // goes on: the colour is worth sending
+    health_.warn("depth empty", depth_topic +
+                                    " has no reading at all, so no pose can be found; check that "
+                                    "the sensor runs and is within its range");
+  }
 
   const auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = to_stamp(rgb->header.stamp);

@@ -35,9 +35,10 @@ using RgbdFramePtr = std::shared_ptr<const RgbdFrame>;
 
 /// Subscribes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
 /// .../depth_registered/image_rect, pairs colour and depth by stamp and checks them. What does not
-/// fit is dropped with a message and a diagnostic that name the topic and the remedy. Private
-/// parameters: ~max_stamp_difference (s, default 0.02), ~depth_unit (metres per count for 32FC1
-/// depth, default 0.0002), ~image_transport (default raw).
+/// fit is dropped with a message and a diagnostic that name the topic and the remedy; depth without
+/// a single reading is reported and passed on. Private parameters: ~max_stamp_difference (s,
+/// default 0.02), ~depth_unit (metres per count for 32FC1 depth, default 0.0002), ~image_transport
+/// (default raw).
 class RgbdSubscriber {
  public:
   using Callback = std::function<void(const RgbdFramePtr&)>;
