@@ -36,15 +36,15 @@ TEST_F(ProfileTest, BothShippedOnesLoadByTheirNames) {
   const auto best = load_profile("default");
   ASSERT_TRUE(best) << best.reason();
   EXPECT_EQ(best->name, "default");
-  EXPECT_TRUE(best->pose.local_start);
-  EXPECT_EQ(best->pose.max_iterations, 20);
+  EXPECT_TRUE(best->samples.local_start);
+  EXPECT_EQ(best->samples.max_iterations, 20);
   EXPECT_EQ(best->station.synthesis.mode, Synthesis::kBackward);
   const auto paper = load_profile("paper");
   ASSERT_TRUE(paper) << paper.reason();
-  EXPECT_FALSE(paper->pose.local_start);
-  EXPECT_TRUE(paper->pose.resample);
-  EXPECT_EQ(paper->pose.max_iterations, 50);
-  EXPECT_EQ(paper->pose.sample_count, 250);
+  EXPECT_FALSE(paper->samples.local_start);
+  EXPECT_TRUE(paper->samples.resample);
+  EXPECT_EQ(paper->samples.max_iterations, 50);
+  EXPECT_EQ(paper->samples.sample_count, 250);
   EXPECT_EQ(paper->station.synthesis.mode, Synthesis::kForward);
   EXPECT_EQ(paper->station.unknown_fill, UnknownFill::kBlack);
   EXPECT_EQ(paper->codec.fill, UnsentFill::kBlack);
@@ -55,7 +55,7 @@ TEST_F(ProfileTest, ByPathTheyAreTheSame) {
   const auto by_path = load_profile(kShipped + "/default.yaml");
   ASSERT_TRUE(by_name && by_path) << by_path.reason();
   EXPECT_EQ(by_name->codec.colour_quality, by_path->codec.colour_quality);
-  EXPECT_EQ(by_name->pose.limits.min_matched, by_path->pose.limits.min_matched);
+  EXPECT_EQ(by_name->samples.limits.min_matched, by_path->samples.limits.min_matched);
 }
 
 // Whether the loader reads a key shows in its complaint about a value that no key can have.
@@ -78,7 +78,7 @@ TEST_F(ProfileTest, MissingKeysKeepTheirDefaults) {
   const auto profile = load_profile(file("colour_quality: 9\n"));
   ASSERT_TRUE(profile) << profile.reason();
   EXPECT_EQ(profile->codec.colour_quality, 9);
-  EXPECT_EQ(profile->pose.sample_count, SamplesOptions().sample_count);
+  EXPECT_EQ(profile->samples.sample_count, SamplesOptions().sample_count);
   EXPECT_EQ(profile->codec.colour_codec, FrameCodecOptions().colour_codec);
 }
 
