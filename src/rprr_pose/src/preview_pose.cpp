@@ -10,8 +10,8 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr std::size_t kLevels = 3;        // 80x60, 40x30, 20x15 for VGA
-constexpr std::size_t kSlid = 6;          // candidates that are also tried some way along
+constexpr int kCoarsest = 16;     // cells in a row of the coarsest view: 80, 40 and 20 for VGA
+constexpr std::size_t kSlid = 6;  // candidates that are also tried some way along
 constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
 constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
@@ -19,7 +19,8 @@ constexpr double kDistinctDegrees = 6.0;
 
 std::vector<PreviewView> pyramid(PreviewView view) {
   std::vector<PreviewView> levels{std::move(view)};
-  while (levels.size() < kLevels) levels.push_back(half_view(levels.back()));
+  while (levels.back().width() / 2 >= kCoarsest) levels.push_back(half_view(levels.back()));
+  if (levels.size() == 1) levels.push_back(half_view(levels.back()));
   return levels;
 }
 
@@ -158,15 +159,17 @@ void PreviewPoseEstimator::slide(std::vector<Candidate>& candidates) const {
 }
 
 std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
+  const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
+  const std::size_t middle = coarsest - 1;
   std::vector<Candidate> candidates;
-  for (const Pose& start : find_starts(b_[2], a_[2], options_.range)) {
+  for (const Pose& start : find_starts(b_[coarsest], a_[coarsest], options_.range)) {
     candidates.emplace_back();
     candidates.back().motion = start;
   }
-  narrow(candidates, 1, {3, 4, 0.8f, 0.5f, 16.0f}, 32, 0.04, 1.5);
-  narrow(candidates, 1, {4, 2, 0.4f, 0.2f, 14.0f}, 12, 0.05, 2.0);
+  narrow(candidates, middle, {3, 4, 0.8f, 0.5f, 16.0f}, 32, 0.04, 1.5);
+  narrow(candidates, middle, {4, 2, 0.4f, 0.2f, 14.0f}, 12, 0.05, 2.0);
   slide(candidates);
-  narrow(candidates, 1, {4, 3, 0.25f, 0.2f, 14.0f}, 12, 0.05, 2.0);
+  narrow(candidates, middle, {4, 3, 0.25f, 0.2f, 14.0f}, 12, 0.05, 2.0);
   narrow(candidates, 0, {4, 3, 0.25f, 0.12f, 12.0f}, 6, 0.05, 2.0);
   for (Candidate& candidate : candidates) judge(candidate);
   std::stable_sort(candidates.begin(), candidates.end(), better);
