@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
 #include <rprr_msgs/BlockMask.h>
+#include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/EncodedFrame.h>
 #include <rprr_msgs/ExchangeEvent.h>
 #include <rprr_msgs/PairStatistics.h>
@@ -63,8 +64,10 @@ class Inbox {
 
 /// Every topic that the nodelets of a pair and its station speak on.
 struct PairTopics {
-  PairTopics(ros::NodeHandle& nh, const std::string& a, const std::string& b)
-      : a_samples(nh, "/" + a + "/rprr/samples"),
+  /// previews: whether the robots speak the protocol of previews or that of samples.
+  PairTopics(ros::NodeHandle& nh, const std::string& a, const std::string& b, bool previews)
+      : preview(nh, "/" + b + "/rprr/preview"),
+        a_samples(nh, "/" + a + "/rprr/samples"),
         b_samples(nh, "/" + b + "/rprr/samples"),
         a_update(nh, "/" + a + "/rprr/update"),
         b_update(nh, "/" + b + "/rprr/update"),
@@ -88,6 +91,7 @@ struct PairTopics {
         depth_of_a(nh, "/station/" + a + "/depth_registered/image_rect"),
         statistics(nh, "/station/statistics"),
         diagnostics(nh, "/diagnostics"),
+        previews_(previews),
         a_(a),
         b_(b) {}
 
@@ -102,8 +106,16 @@ struct PairTopics {
   }
   template <typename Action>
   void each_on_the_radio(const Action& action) const {
-    action(a_samples), action(b_samples), action(a_update), action(b_update), action(pose);
-    action(prediction), action(a_encoded), action(b_encoded), action(receipts);
+    const_cast<PairTopics*>(this)->each_on_the_radio([&](const auto& inbox) { action(inbox); });
+  }
+  template <typename Action>
+  void each_on_the_radio(const Action& action) {
+    if (previews_) {
+      action(preview);
+    } else {
+      action(a_samples), action(b_samples), action(a_update), action(b_update);
+    }
+    action(pose), action(prediction), action(a_encoded), action(b_encoded), action(receipts);
   }
   /// Topics that nobody publishes, or on which nothing came.
   std::vector<std::string> not_advertised() const {
@@ -161,6 +173,7 @@ struct PairTopics {
   }
   static constexpr std::size_t kNodelets = 7;
 
+  Inbox<rprr_msgs::BlockPreview> preview;
   Inbox<rprr_msgs::SamplePoints> a_samples, b_samples;
   Inbox<rprr_msgs::PoseUpdate> a_update, b_update;
   Inbox<rprr_msgs::RelativePose> pose;
@@ -179,6 +192,7 @@ struct PairTopics {
   Inbox<diagnostic_msgs::DiagnosticArray> diagnostics;
 
  private:
+  bool previews_;
   std::string a_, b_;
 };
 

@@ -21,23 +21,10 @@ namespace rprr {
 class RadioAttacker {
  public:
   RadioAttacker(ros::NodeHandle& nh, PairTopics& topics) : topics_(topics) {
-    answer(nh, topics.a_samples);
-    answer(nh, topics.b_samples);
-    answer(nh, topics.a_update);
-    answer(nh, topics.b_update);
-    answer(nh, topics.pose);
-    answer(nh, topics.prediction);
-    answer(nh, topics.a_encoded);
-    answer(nh, topics.b_encoded);
-    answer(nh, topics.receipts);
+    topics.each_on_the_radio([&](auto& inbox) { answer(nh, inbox); });
   }
   ~RadioAttacker() {
-    topics_.a_samples.listener = topics_.b_samples.listener = nullptr;
-    topics_.a_update.listener = topics_.b_update.listener = nullptr;
-    topics_.pose.listener = nullptr;
-    topics_.prediction.listener = nullptr;
-    topics_.a_encoded.listener = topics_.b_encoded.listener = nullptr;
-    topics_.receipts.listener = nullptr;
+    topics_.each_on_the_radio([](auto& inbox) { inbox.listener = nullptr; });
   }
   RadioAttacker(const RadioAttacker&) = delete;
   RadioAttacker& operator=(const RadioAttacker&) = delete;
@@ -84,6 +71,7 @@ class RadioAttacker {
   }
   void spoil(rprr_msgs::RelativePose& message, int kind) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
+    spoil(message.reference_camera, kind);
     switch (kind) {
       case 0:
         message.translation[0] = nan;

@@ -105,7 +105,7 @@ TEST(Freiburg, BagOfTheBenchmarksShapeIsPlayedAsTwoRobots) {
   const std::string bag = make_bag(files);
   check_shape(bag);
   ros::NodeHandle nh;
-  PairTopics topics(nh, "eyebug_a", "eyebug_b");
+  PairTopics topics(nh, "eyebug_a", "eyebug_b", true);
   Inbox<sensor_msgs::Image> played(nh, "/eyebug_b/camera/depth_registered/image_rect");
   const Launch launch(ros::param::param<std::string>("~launch_file", "") + " bag:=" + bag +
                       " step:=1 rate:=0");

@@ -43,7 +43,7 @@ cv::Mat grey_of(const sensor_msgs::Image& image) {
 /// Both cameras and everything that is heard; connected once for all tests.
 struct Bench {
   ros::NodeHandle nh;
-  PairTopics topics{nh, kA, kB};
+  PairTopics topics{nh, kA, kB, ros::param::param("~previews", true)};
   CameraPlayer a{nh, kA};
   CameraPlayer b{nh, kB};
 
