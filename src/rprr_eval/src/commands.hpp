@@ -8,5 +8,10 @@ namespace rprr {
 /// Each adds a subcommand; what it runs sets exit_code.
 void add_pairs_command(CLI::App& app, int& exit_code);
 void add_codec_command(CLI::App& app, int& exit_code);
+void add_turntable_command(CLI::App& app, int& exit_code);
+void add_iterations_command(CLI::App& app, int& exit_code);
+void add_latency_command(CLI::App& app, int& exit_code);
+void add_poses_command(CLI::App& app, int& exit_code);
+void add_methods_command(CLI::App& app, int& exit_code);
 
 }  // namespace rprr

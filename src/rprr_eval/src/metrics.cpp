@@ -112,4 +112,12 @@ PoseError pose_error(const Pose& estimate, const Pose& truth) {
           kRadian * rotation_angle(difference.linear())};
 }
 
+bool is_right(const PoseError& error) {
+  return error.metres < 0.08 && error.degrees < 3.0;
+}
+
+bool is_wrong(const PoseError& error) {
+  return error.metres > 0.16 || error.degrees > 6.0;
+}
+
 }  // namespace rprr

@@ -10,20 +10,14 @@ namespace {
 
 using Field = std::function<double(const PairResult&)>;
 
-// Poses count as right and as wrong with a gap between, since the ground truth has its own error.
-constexpr double kRightMetres = 0.08, kRightDegrees = 3.0;
-constexpr double kWrongMetres = 0.16, kWrongDegrees = 6.0;
-
 bool accepted(const PairResult& r) {
   return r.exchange.pose && r.exchange.pose->status == PoseStatus::kAccepted;
 }
 bool right(const PairResult& r) {
-  return r.pose_error && r.pose_error->metres < kRightMetres &&
-         r.pose_error->degrees < kRightDegrees;
+  return r.pose_error && is_right(*r.pose_error);
 }
 bool wrong(const PairResult& r) {
-  return r.pose_error &&
-         (r.pose_error->metres > kWrongMetres || r.pose_error->degrees > kWrongDegrees);
+  return r.pose_error && is_wrong(*r.pose_error);
 }
 
 double median_of(const std::vector<PairResult>& results, const Field& field) {

@@ -37,4 +37,9 @@ struct PoseError {
 };
 PoseError pose_error(const Pose& estimate, const Pose& truth);
 
+/// Poses count as right (under 8 cm and 3 deg) and as wrong (over 16 cm or 6 deg) with a gap
+/// between, since the ground truth has its own error.
+bool is_right(const PoseError& error);
+bool is_wrong(const PoseError& error);
+
 }  // namespace rprr
