@@ -16,7 +16,7 @@ namespace rprr {
 /// The paper's turntable experiment, synthetic: objects on a table that turns before a Kinect on a
 /// tripod; the background is excluded, that is, beyond the table there is no depth.
 struct TurntableOptions {
-  int seeds = 10;  // tables, each with other objects
+  int seeds = 20;  // tables, each with other objects
   std::uint32_t first_seed = 1;
   double step_degrees = 5.0;
   double last_degrees = 60.0;
