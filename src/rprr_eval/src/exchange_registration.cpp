@@ -9,16 +9,23 @@ namespace {
 const std::string kA = "eyebug_a";
 const std::string kB = "eyebug_b";
 
-class SamplesRegistration final : public Registration {
+template <typename Options>
+Options between(Options options, const std::string& self, const std::string& peer) {
+  options.self = self;
+  options.peer = peer;
+  return options;
+}
+
+class ExchangeRegistration final : public Registration {
  public:
-  SamplesRegistration(std::string name, const SamplesOptions& options)
-      : name_(std::move(name)), options_(options) {}
+  ExchangeRegistration(std::string name, const Profile& profile)
+      : name_(std::move(name)), profile_(profile) {}
 
   std::string name() const override { return name_; }
 
   RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
     constexpr Stamp kStamp = from_seconds(1000.0);
-    ExchangeHarness harness = make_samples_exchange(options_, 0);
+    ExchangeHarness harness = make_exchange(profile_, 0);
     const ExchangeOutcome outcome =
         harness.run(as_frame_of(a, kA, kStamp), as_frame_of(b, kB, kStamp));
     RegistrationResult result;
@@ -37,24 +44,23 @@ class SamplesRegistration final : public Registration {
 
  private:
   const std::string name_;
-  const SamplesOptions options_;
+  const Profile profile_;
 };
 
 }  // namespace
 
-ExchangeHarness make_samples_exchange(const SamplesOptions& options, Duration one_way_latency) {
-  SamplesOptions at_a = options;
-  at_a.self = kA;
-  at_a.peer = kB;
-  SamplesOptions at_b = options;
-  at_b.self = kB;
-  at_b.peer = kA;
-  return {make_samples_reference(at_a), make_samples_dependent(at_b), one_way_latency};
+ExchangeHarness make_exchange(const Profile& profile, Duration one_way_latency) {
+  if (profile.use_previews) {
+    return {make_preview_reference(between(profile.preview, kA, kB)),
+            make_preview_dependent(between(profile.preview, kB, kA)), one_way_latency};
+  }
+  return {make_samples_reference(between(profile.samples, kA, kB)),
+          make_samples_dependent(between(profile.samples, kB, kA)), one_way_latency};
 }
 
-std::unique_ptr<Registration> make_samples_registration(const std::string& name,
-                                                        const SamplesOptions& options) {
-  return std::make_unique<SamplesRegistration>(name, options);
+std::unique_ptr<Registration> make_exchange_registration(const std::string& name,
+                                                         const Profile& profile) {
+  return std::make_unique<ExchangeRegistration>(name, profile);
 }
 
 PoseFramePtr as_frame_of(const PoseFrame& frame, const std::string& robot, Stamp stamp) {

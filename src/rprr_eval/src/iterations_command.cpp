@@ -63,7 +63,7 @@ std::string bars(const std::map<int, int>& histogram) {
 
 Result<ExchangeSurvey> survey_distance(FrameSource& source, std::size_t step,
                                        const Profile& profile) {
-  ExchangeSurveyor surveyor(make_samples_exchange(profile.pose, from_seconds(0.005)));
+  ExchangeSurveyor surveyor(make_exchange(profile, from_seconds(0.005)));
   for (std::size_t k = 0; k + step < source.folder().entries.size(); ++k) {
     const Result<PoseFramePtr> a = source.frame(k);
     if (!a) return Error{a.reason()};
@@ -76,8 +76,9 @@ Result<ExchangeSurvey> survey_distance(FrameSource& source, std::size_t step,
 
 int run(const IterationsArguments& arguments) {
   cv::setNumThreads(1);
-  const Result<Profile> profile = load_profile(arguments.profile);
+  Result<Profile> profile = load_profile(arguments.profile);
   if (!profile) return std::cerr << profile.reason() << "\n", 1;
+  profile->use_previews = false;  // which do not iterate over the radio
   const Result<TumFolder> folder = open_tum_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
   const Distances distances = distances_of(*folder, arguments.distances);

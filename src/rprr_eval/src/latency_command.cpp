@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <opencv2/core/utility.hpp>
@@ -26,19 +25,19 @@ struct LatencyArguments {
 // A protocol with its settings; a new one is one line in protocols().
 struct Protocol {
   std::string name;
-  std::function<ExchangeHarness(Duration one_way)> make;
+  Profile profile;
 };
 
 Result<std::vector<Protocol>> protocols() {
-  std::vector<Protocol> all;
-  for (const std::string name : {"default", "paper"}) {
-    const Result<Profile> profile = load_profile(name);
-    if (!profile) return Error{profile.reason()};
-    all.push_back({"samples, profile " + name, [options = profile->pose](Duration one_way) {
-                     return make_samples_exchange(options, one_way);
-                   }});
-  }
-  return all;
+  const Result<Profile> ours = load_profile("default");
+  if (!ours) return Error{ours.reason()};
+  const Result<Profile> paper = load_profile("paper");
+  if (!paper) return Error{paper.reason()};
+  Profile samples = *ours;
+  samples.use_previews = false;
+  return std::vector<Protocol>{{"preview", *ours},
+                               {"samples, profile default", samples},
+                               {"samples, profile paper", *paper}};
 }
 
 Result<std::vector<FramePair>> pairs_of(const LatencyArguments& arguments) {
@@ -63,7 +62,7 @@ int run(const LatencyArguments& arguments) {
       {"protocol", "round trip", "accepted", "decided after", "if accepted", "and computing"});
   for (const Protocol& protocol : *all) {
     for (const double round_trip : arguments.round_trips) {
-      ExchangeSurveyor surveyor(protocol.make(from_seconds(round_trip / 2e3)));
+      ExchangeSurveyor surveyor(make_exchange(protocol.profile, from_seconds(round_trip / 2e3)));
       for (const auto& [a, b] : *pairs) surveyor.add(*a, *b);
       const ExchangeSurvey survey = surveyor.survey();
       json.write({{"protocol", protocol.name},

@@ -12,20 +12,23 @@ namespace {
 
 using Made = Result<std::unique_ptr<Registration>>;
 
-Made samples(const std::string& name, const std::string& profile_name) {
-  const Result<Profile> profile = load_profile(profile_name);
+Made protocol(const std::string& name, const std::string& profile_name, bool use_previews) {
+  Result<Profile> profile = load_profile(profile_name);
   if (!profile) return Error{profile.reason()};
-  return make_samples_registration(name, profile->pose);
+  profile->use_previews = use_previews;
+  return make_exchange_registration(name, *profile);
 }
 
 }  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> kMethods = {
+      {"preview", "the preview protocol, profile default, cold",
+       [] { return protocol("preview", "default", true); }},
       {"samples", "the samples protocol, profile default",
-       [] { return samples("samples", "default"); }},
+       [] { return protocol("samples", "default", false); }},
       {"samples_paper", "the samples protocol, profile paper",
-       [] { return samples("samples_paper", "paper"); }},
+       [] { return protocol("samples_paper", "paper", false); }},
       {"icp_bd", "the paper's ICP-BD", [] { return Made(make_icp_bd()); }},
       {"icp_ivd", "ICP in inverse depth coordinates (Lui et al.)",
        [] { return Made(make_icp_ivd()); }},

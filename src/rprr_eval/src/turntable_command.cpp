@@ -15,7 +15,7 @@ namespace {
 
 struct TurntableArguments {
   TurntableOptions options;
-  std::vector<std::string> methods = {"icp", "icp_ivd", "icp_bd"};
+  std::vector<std::string> methods = {"icp", "icp_ivd", "icp_bd", "preview"};
   std::string json;
 };
 

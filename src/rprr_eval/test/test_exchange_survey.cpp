@@ -9,15 +9,21 @@
 namespace rprr {
 namespace {
 
-ExchangeSurvey survey_at(const RoomViews& views, const SamplesOptions& options, double one_way_s,
+ExchangeSurvey survey_at(const RoomViews& views, const Profile& profile, double one_way_s,
                          int exchanges = 2) {
-  ExchangeSurveyor surveyor(make_samples_exchange(options, from_seconds(one_way_s)));
+  ExchangeSurveyor surveyor(make_exchange(profile, from_seconds(one_way_s)));
   for (int i = 0; i < exchanges; ++i) surveyor.add(views.a, views.b);
   return surveyor.survey();
 }
 
+Profile samples_profile() {
+  Profile profile;
+  profile.use_previews = false;
+  return profile;
+}
+
 TEST(ExchangeSurvey, CountsWhatAcceptedExchangesCost) {
-  const ExchangeSurvey survey = survey_at(room_views(0.05, 3.0), {}, 0.005);
+  const ExchangeSurvey survey = survey_at(room_views(0.05, 3.0), samples_profile(), 0.005);
   EXPECT_EQ(survey.pairs, 2);
   ASSERT_EQ(survey.accepted, 2);
   int histogram = 0;
@@ -31,20 +37,26 @@ TEST(ExchangeSurvey, CountsWhatAcceptedExchangesCost) {
 
 TEST(ExchangeSurvey, LatencyGrowsWithTheRoundTripNotWithTheMachine) {
   const RoomViews views = room_views(0.05, 3.0);
-  const ExchangeSurvey near = survey_at(views, {}, 0.01);
-  const ExchangeSurvey far = survey_at(views, {}, 0.05);
+  const ExchangeSurvey near = survey_at(views, samples_profile(), 0.01);
+  const ExchangeSurvey far = survey_at(views, samples_profile(), 0.05);
   EXPECT_NEAR(far.median_latency_ms, 5.0 * near.median_latency_ms, 1e-6);
   EXPECT_EQ(far.mean_bytes, near.mean_bytes);
 }
 
 TEST(ExchangeSurvey, SaysWhyPairsWereRejected) {
-  SamplesOptions strict;
-  strict.limits.max_sigma_translation = 1e-9;
+  Profile strict = samples_profile();
+  strict.samples.limits.max_sigma_translation = 1e-9;
   const ExchangeSurvey survey = survey_at(room_views(0.05, 3.0), strict, 0.005, 1);
   EXPECT_EQ(survey.accepted, 0);
   ASSERT_EQ(survey.rejected.size(), 1u);
   EXPECT_EQ(survey.rejected.begin()->first, reason_of(PoseStatus::kDegenerate));
   EXPECT_EQ(survey.mean_iterations, 0.0);
+}
+
+TEST(ExchangeSurvey, APreviewTakesOneRoundTrip) {
+  const ExchangeSurvey survey = survey_at(room_views(0.05, 3.0), Profile(), 0.05);
+  EXPECT_EQ(survey.accepted, 2);
+  EXPECT_NEAR(survey.median_latency_ms, 100.0, 1e-6);
 }
 
 TEST(Distances, AreThoseThatTheStrideAllows) {
