@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rprr_geometry/block_mask_pair.hpp"
+
 namespace rprr {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 constexpr std::uint8_t kSparse = 0x01;
 constexpr std::size_t kMaxName = 64;
 
@@ -86,7 +88,7 @@ Bytes copy_of(ByteView view) {
 }  // namespace
 
 Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes) {
-  const Bytes mask = frame.sparse ? encode_mask(frame.mask) : Bytes{};
+  const Bytes mask = frame.sparse ? encode_mask_pair({frame.mask, frame.depth_blocks()}) : Bytes{};
   ByteWriter writer;
   writer.bytes().reserve(256 + mask.size() + frame.depth.size() + frame.colour.size());
   writer.put(kVersion);
@@ -144,10 +146,11 @@ Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes) {
   const ByteView colour = reader.get_view(colour_bytes);
   if (!reader.ok() || reader.left() != 0) return Error{"encoded frame whose lengths do not add up"};
   if (frame.sparse) {
-    Result<BlockMask> blocks =
-        decode_mask(mask, BlockGrid(frame.camera.width, frame.camera.height));
+    Result<BlockMaskPair> blocks =
+        decode_mask_pair(mask, BlockGrid(frame.camera.width, frame.camera.height));
     if (!blocks) return Error{"encoded frame: " + blocks.reason()};
-    frame.mask = std::move(*blocks);
+    frame.mask = std::move(blocks->colour);
+    frame.depth_mask = std::move(blocks->depth);
   } else if (mask_bytes != 0) {
     return Error{"encoded frame is whole and has a mask"};
   }

@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "rprr_geometry/block_mask_pair.hpp"
+
 namespace rprr {
 namespace {
 
@@ -28,6 +30,9 @@ std::string mismatch(const DepthFrame& depth, const cv::Mat& bgr, const EncodedF
   const BlockGrid& grid = frame.mask.grid();
   if (frame.sparse && (grid.width != frame.camera.width || grid.height != frame.camera.height)) {
     return "block mask is not of the camera's size";
+  }
+  if (frame.sparse && !is_subset(frame.depth_blocks(), frame.mask)) {
+    return "blocks with depth are not among the blocks sent";
   }
   return {};
 }
@@ -60,7 +65,8 @@ Result<bool> FrameEncoder::encode(const DepthFrame& depth, const cv::Mat& bgr,
   frame.depth.clear();
   frame.colour.clear();
   if (!frame.sparse || frame.mask.count() > 0) {
-    frame.depth = frame.sparse ? depth_->encode(depth, frame.mask) : depth_->encode(depth);
+    frame.depth =
+        frame.sparse ? depth_->encode(depth, frame.depth_blocks()) : depth_->encode(depth);
     Result<Bytes> colour = colour_->encode(frame.sparse ? fill_unsent(bgr, frame.mask) : bgr);
     if (!colour) return Error{colour.reason()};
     frame.colour = std::move(*colour);
@@ -97,6 +103,9 @@ Result<DecodedFrame> FrameDecoder::decode(const EncodedFrame& frame) {
   if (frame.sparse && (grid.width != size.width || grid.height != size.height)) {
     return Error{"block mask is not of the camera's size"};
   }
+  if (frame.sparse && !is_subset(frame.depth_blocks(), frame.mask)) {
+    return Error{"blocks with depth are not among the blocks sent"};
+  }
   if (frame.sparse && frame.mask.count() == 0) {
     if (!frame.depth.empty() || !frame.colour.empty()) {
       return Error{"frame without blocks has payloads"};
@@ -104,8 +113,8 @@ Result<DecodedFrame> FrameDecoder::decode(const EncodedFrame& frame) {
     return DecodedFrame{{cv::Mat::zeros(size, CV_16UC1), DepthFrame{}.unit},
                         cv::Mat::zeros(size, CV_8UC3)};
   }
-  Result<DepthFrame> depth =
-      frame.sparse ? depth_->decode(frame.depth, frame.mask) : depth_->decode(frame.depth, size);
+  Result<DepthFrame> depth = frame.sparse ? depth_->decode(frame.depth, frame.depth_blocks())
+                                          : depth_->decode(frame.depth, size);
   if (!depth) return Error{depth.reason()};
   Result<cv::Mat> bgr = colour_->decode(frame.colour_codec, frame.colour, size);
   if (!bgr) return Error{bgr.reason()};

@@ -37,6 +37,10 @@ std::string add_reference(const rprr_msgs::OutgoingFrame& message, EncodedFrame&
       decode_mask(message.mask, BlockGrid(frame.camera.width, frame.camera.height));
   if (!mask) return mask.reason();
   frame.mask = std::move(*mask);
+  if (message.depth_mask.empty()) return {};
+  Result<BlockMask> depth = decode_mask(message.depth_mask, frame.mask.grid());
+  if (!depth) return "depth mask: " + depth.reason();
+  frame.depth_mask = std::move(*depth);
   return {};
 }
 

@@ -50,6 +50,19 @@ TEST(EncodedFrame, ComesBack) {
   }
 }
 
+TEST(EncodedFrame, BothMasksComeBack) {
+  EncodedFrame frame = example(true);
+  EXPECT_TRUE(parse_encoded_frame(serialise(frame))->depth_blocks() == frame.mask);
+  frame.depth_mask = BlockMask(frame.mask.grid());
+  for (int block = 0; block < frame.mask.grid().count(); block += 3) {
+    frame.depth_mask.set(block, frame.mask[block]);
+  }
+  const Result<EncodedFrame> back = parse_encoded_frame(serialise(frame));
+  ASSERT_TRUE(back) << back.reason();
+  EXPECT_TRUE(back->mask == frame.mask);
+  EXPECT_TRUE(back->depth_mask == frame.depth_mask);
+}
+
 TEST(EncodedFrame, SizesAddUpOnBothSides) {
   for (const bool sparse : {false, true}) {
     const EncodedFrame frame = example(sparse);

@@ -66,6 +66,36 @@ TEST_F(FrameCodec, SentBlocksComeBackWithEitherFill) {
   }
 }
 
+TEST_F(FrameCodec, DepthOfFewerBlocksThanColour) {
+  const BlockMask mask = synthetic::some_blocks(BlockGrid(kWidth, kHeight), 0.4);
+  for (const int keep_every : {2, 1000000}) {
+    BlockMask with_depth(mask.grid());
+    for (int block = 1; block < mask.grid().count(); ++block) {
+      with_depth.set(block, mask[block] && block % keep_every == 0);
+    }
+    EncodedFrame frame = frame_of(&mask);
+    frame.depth_mask = with_depth;
+    FrameCodecOptions options;
+    options.colour_quality = 0;
+    depth_.unit = 0.0002;
+    const DecodedFrame decoded = through(frame, options);
+    EXPECT_TRUE(synthetic::same(decoded.depth.counts, synthetic::only(depth_.counts, with_depth)));
+    EXPECT_EQ(decoded.depth.unit, 0.0002) << "the unit is known without any depth";
+    EXPECT_TRUE(synthetic::same(synthetic::only(decoded.bgr, mask), synthetic::only(bgr_, mask)));
+  }
+}
+
+TEST_F(FrameCodec, DepthBeyondTheBlocksSentIsAnError) {
+  const BlockMask none(BlockGrid(kWidth, kHeight));
+  EncodedFrame frame = frame_of(&none);
+  frame.depth_mask = BlockMask(none.grid(), true);
+  Result<FrameEncoder> encoder = FrameEncoder::create({});
+  EXPECT_FALSE(encoder->encode(depth_, bgr_, frame));
+  EXPECT_FALSE(decoder_.decode(frame));
+  frame.depth_mask = BlockMask(BlockGrid(kWidth + 8, kHeight));
+  EXPECT_FALSE(decoder_.decode(frame)) << "mask of another size";
+}
+
 TEST_F(FrameCodec, NothingToSendTakesNoPayload) {
   const BlockMask none(BlockGrid(kWidth, kHeight));
   EncodedFrame frame = frame_of(&none);

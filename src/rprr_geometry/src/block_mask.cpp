@@ -5,29 +5,13 @@
 #include <array>
 #include <numeric>
 
+#include "mask_contexts.hpp"
 #include "rprr_geometry/range_coder.hpp"
 
 namespace rprr {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
-enum Mode : std::uint8_t { kNone = 0, kAll = 1, kCoded = 2 };
-
-// Visits blocks in row order with the context that both ends know by then.
-template <typename Visit>
-void for_each_with_context(const BlockGrid& grid, const BlockMask& mask, const Visit& visit) {
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const auto bit = [&](int dc, int dr) {
-        const int c = column + dc;
-        const int r = row + dr;
-        return c >= 0 && r >= 0 && c < grid.columns && mask[grid.index(c, r)] ? 1 : 0;
-      };
-      const int context = bit(-1, 0) | bit(-1, -1) << 1 | bit(0, -1) << 2 | bit(1, -1) << 3;
-      visit(grid.index(column, row), context);
-    }
-  }
-}
 
 }  // namespace
 
@@ -58,13 +42,13 @@ cv::Mat BlockMask::to_image() const {
 Bytes encode_mask(const BlockMask& mask) {
   const BlockGrid& grid = mask.grid();
   const int set = mask.count();
-  const Mode mode = set == 0 ? kNone : set == grid.count() ? kAll : kCoded;
+  const MaskMode mode = set == 0 ? kMaskNone : set == grid.count() ? kMaskAll : kMaskCoded;
   ByteWriter writer;
   writer.put(kVersion);
   writer.put(static_cast<std::uint16_t>(grid.width));
   writer.put(static_cast<std::uint16_t>(grid.height));
   writer.put(static_cast<std::uint8_t>(mode));
-  if (mode == kCoded) {
+  if (mode == kMaskCoded) {
     std::array<AdaptiveBit, 16> bits;
     RangeEncoder encoder;
     for_each_with_context(grid, mask, [&](int block, int context) {
@@ -88,11 +72,11 @@ Result<BlockMask> decode_mask(ByteView bytes, const BlockGrid& expected) {
   if (width != expected.width || height != expected.height) {
     return Error{"block mask for an image of another size"};
   }
-  if (mode > kCoded || (mode != kCoded && reader.left() != 0)) {
+  if (mode > kMaskCoded || (mode != kMaskCoded && reader.left() != 0)) {
     return Error{"block mask in an unknown mode"};
   }
-  BlockMask mask(expected, mode == kAll);
-  if (mode == kCoded) {
+  BlockMask mask(expected, mode == kMaskAll);
+  if (mode == kMaskCoded) {
     std::array<AdaptiveBit, 16> bits;
     RangeDecoder decoder(reader.get_view(reader.left()));
     for_each_with_context(expected, mask, [&](int block, int context) {

@@ -132,6 +132,10 @@ void Station::account(const ReceivedMessage& message, const EncodedFrame& encode
   frame.report = cleaned(encoded.report);
   frame.blocks_total = BlockGrid(encoded.camera.width, encoded.camera.height).count();
   frame.blocks_sent = encoded.sparse ? encoded.mask.count() : frame.blocks_total;
+  if (encoded.sparse) {
+    frame.received_depth = encoded.depth_blocks();
+    frame.blocks_colour_only = frame.blocks_sent - frame.received_depth.count();
+  }
 
   const std::size_t own = encoded_message_bytes(message.frame_id.size(), message.data.size);
   const EncodedSizes& sizes = frame.sizes;
@@ -190,8 +194,8 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
   const Stopwatch rebuilding;
   synthesizer_.synthesize(reference.depth, reference.bgr, reference.camera, encoded.camera,
                           encoded.motion, predicted_);
-  Result<StitchedView> view =
-      stitcher_.stitch(predicted_, decoded->bgr, decoded->depth, encoded.mask);
+  Result<StitchedView> view = stitcher_.stitch(predicted_, decoded->bgr, decoded->depth,
+                                               encoded.mask, encoded.depth_blocks());
   frame.ms_reconstruct = rebuilding.milliseconds();
   if (!view) {
     output.errors.push_back({frame.robot, frame.stamp, view.reason()});

@@ -25,14 +25,16 @@ void round_to_counts(const cv::Mat& metres, double unit, cv::Mat& counts) {
 }  // namespace
 
 Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::Mat& received_bgr,
-                                      const DepthFrame& received_depth, const BlockMask& mask) {
+                                      const DepthFrame& received_depth, const BlockMask& mask,
+                                      const BlockMask& depth_mask) {
   const BlockGrid& grid = mask.grid();
   const cv::Size size(grid.width, grid.height);
   if (predicted.bgr.size() != size || predicted.metres.size() != size ||
       predicted.provenance.size() != size || received_bgr.size() != size ||
       received_depth.counts.size() != size || received_bgr.type() != CV_8UC3 ||
-      received_depth.counts.type() != CV_16UC1 || !(received_depth.unit > 0)) {
-    return Error{"prediction, received images and block mask are not of one size"};
+      received_depth.counts.type() != CV_16UC1 || !(received_depth.unit > 0) ||
+      cv::Size(depth_mask.grid().width, depth_mask.grid().height) != size) {
+    return Error{"prediction, received images and block masks are not of one size"};
   }
   StitchedView view;
   predicted.bgr.copyTo(view.bgr);
@@ -41,11 +43,12 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
   view.depth.unit = received_depth.unit;
 
   for (int block = 0; block < grid.count(); ++block) {
-    if (!mask[block]) continue;
     const cv::Rect rect = grid.rect(block);
-    received_bgr(rect).copyTo(view.bgr(rect));
-    received_depth.counts(rect).copyTo(view.depth.counts(rect));
-    view.provenance(rect).setTo(kReceived);
+    if (mask[block]) {
+      received_bgr(rect).copyTo(view.bgr(rect));
+      view.provenance(rect).setTo(kReceived);
+    }
+    if (depth_mask[block]) received_depth.counts(rect).copyTo(view.depth.counts(rect));
   }
 
   const double pixels = static_cast<double>(size.area());

@@ -99,6 +99,7 @@ rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
   statistics.blocks_sent = static_cast<std::uint32_t>(frame.blocks_sent);
   statistics.blocks_sent_without_depth =
       static_cast<std::uint32_t>(frame.blocks_sent_without_depth);
+  statistics.blocks_colour_only = static_cast<std::uint32_t>(frame.blocks_colour_only);
 
   statistics.bytes_pose = frame.report.bytes_pose;
   statistics.bytes_masks = u32(frame.bytes_masks);

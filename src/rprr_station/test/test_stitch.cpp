@@ -42,7 +42,7 @@ class StitchTest : public testing::Test {
 };
 
 TEST_F(StitchTest, ReceivedBlocksAreExactAndTheRestIsPredicted) {
-  const auto view = Stitcher().stitch(prediction(), bgr, depth, mask);
+  const auto view = Stitcher().stitch(prediction(), bgr, depth, mask, mask);
   ASSERT_TRUE(view) << view.reason();
   EXPECT_EQ(view->depth.unit, 0.0002);
   for (int block = 0; block < mask.grid().count(); ++block) {
@@ -60,11 +60,24 @@ TEST_F(StitchTest, ReceivedBlocksAreExactAndTheRestIsPredicted) {
   EXPECT_NEAR(view->share_predicted, (pixels - 64 - 32 - 100) / pixels, 1e-9);
 }
 
+TEST_F(StitchTest, BlocksOfColourOnlyKeepThePredictedDepth) {
+  BlockMask with_depth(mask.grid());
+  with_depth.set(mask.grid().count() - 1);
+  const auto view = Stitcher().stitch(prediction(), bgr, depth, mask, with_depth);
+  ASSERT_TRUE(view) << view.reason();
+  const cv::Rect colour_only = mask.grid().rect(0);
+  EXPECT_EQ(cv::norm(view->bgr(colour_only), bgr(colour_only), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::countNonZero(view->depth.counts(colour_only) != 6173), 0) << "1.23456 m";
+  EXPECT_EQ(cv::countNonZero(view->provenance(colour_only) != kReceived), 0) << "of the colour";
+  const cv::Rect both = mask.grid().rect(mask.grid().count() - 1);
+  EXPECT_EQ(cv::norm(view->depth.counts(both), depth.counts(both), cv::NORM_INF), 0);
+}
+
 TEST_F(StitchTest, UnknownPixelsAreFilledOrBlack) {
-  const auto smooth = Stitcher(UnknownFill::kSmooth).stitch(prediction(), bgr, depth, mask);
+  const auto smooth = Stitcher(UnknownFill::kSmooth).stitch(prediction(), bgr, depth, mask, mask);
   EXPECT_EQ(smooth->bgr.at<cv::Vec3b>(25, 25), cv::Vec3b(10, 20, 30));
   EXPECT_EQ(smooth->provenance.at<std::uint8_t>(25, 25), kFilled);
-  const auto black = Stitcher(UnknownFill::kBlack).stitch(prediction(), bgr, depth, mask);
+  const auto black = Stitcher(UnknownFill::kBlack).stitch(prediction(), bgr, depth, mask, mask);
   EXPECT_EQ(black->bgr.at<cv::Vec3b>(25, 25), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(black->provenance.at<std::uint8_t>(25, 25), kNothing);
 }
@@ -72,13 +85,13 @@ TEST_F(StitchTest, UnknownPixelsAreFilledOrBlack) {
 TEST_F(StitchTest, DepthBeyondTheUnitIsNoDepth) {
   PredictedView far = prediction();
   far.metres.setTo(13.2);  // 66000 counts of 0.2 mm
-  const auto view = Stitcher().stitch(far, bgr, depth, mask);
+  const auto view = Stitcher().stitch(far, bgr, depth, mask, mask);
   EXPECT_EQ(view->depth.counts.at<std::uint16_t>(10, 10), 0);
 }
 
 TEST_F(StitchTest, TheResultOwnsItsPixels) {
   const PredictedView predicted = prediction();
-  const auto view = Stitcher().stitch(predicted, bgr, depth, mask);
+  const auto view = Stitcher().stitch(predicted, bgr, depth, mask, mask);
   const cv::Mat before = view->bgr.clone();
   cv::Mat(predicted.bgr).setTo(0);
   bgr.setTo(0);
@@ -86,11 +99,12 @@ TEST_F(StitchTest, TheResultOwnsItsPixels) {
 }
 
 TEST_F(StitchTest, RefusesSizesThatDiffer) {
-  EXPECT_FALSE(Stitcher().stitch(prediction(), cv::Mat(4, 4, CV_8UC3), depth, mask));
-  EXPECT_FALSE(Stitcher().stitch(prediction(), bgr, {}, mask));
-  EXPECT_FALSE(Stitcher().stitch(prediction(), bgr, depth, BlockMask(BlockGrid(64, 48))));
-  EXPECT_FALSE(Stitcher().stitch(PredictedView(), bgr, depth, mask));
-  EXPECT_FALSE(Stitcher().stitch(PredictedView(), cv::Mat(), {}, BlockMask()));
+  EXPECT_FALSE(Stitcher().stitch(prediction(), cv::Mat(4, 4, CV_8UC3), depth, mask, mask));
+  EXPECT_FALSE(Stitcher().stitch(prediction(), bgr, {}, mask, mask));
+  EXPECT_FALSE(Stitcher().stitch(prediction(), bgr, depth, BlockMask(BlockGrid(64, 48)),
+                                 BlockMask(BlockGrid(64, 48))));
+  EXPECT_FALSE(Stitcher().stitch(PredictedView(), bgr, depth, mask, mask));
+  EXPECT_FALSE(Stitcher().stitch(PredictedView(), cv::Mat(), {}, BlockMask(), BlockMask()));
 }
 
 }  // namespace

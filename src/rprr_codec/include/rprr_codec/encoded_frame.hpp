@@ -36,10 +36,14 @@ struct EncodedFrame {
   Stamp reference_stamp = 0;       // sparse: stamp of that frame
   Pose motion = Pose::Identity();  // sparse: M_ab, reference to this camera
   BlockMask mask;                  // sparse: the blocks sent; empty otherwise
-  Bytes depth;                     // DHC-M payload of the whole frame or of the mask's blocks
+  BlockMask depth_mask;            // sparse: of these, the ones with depth; empty: all of them
+  Bytes depth;                     // DHC-M payload of the whole frame or of depth_blocks()
   std::string colour_codec;        // name for ColourDecoder
   Bytes colour;  // payload; of a sparse frame: whole image, meaningful in the mask's blocks
   FrameReport report;
+
+  /// sparse: the blocks whose depth is sent, a subset of mask.
+  const BlockMask& depth_blocks() const { return depth_mask.empty() ? mask : depth_mask; }
 };
 
 /// Serialised bytes by kind; extras is everything else in the container.
@@ -53,8 +57,8 @@ struct EncodedSizes {
 
 /// The container: versioned, lengths checked, sealed with a CRC-32 (doc/encoded_frame.md).
 Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes = nullptr);
-/// Untrusted bytes to a frame whose numbers make sense (camera valid, motion rigid, mask of the
-/// camera's grid). The payloads inside are still untrusted.
+/// Untrusted bytes to a frame whose numbers make sense (camera valid, motion rigid, masks of
+/// the camera's grid, depth_mask within mask). The payloads inside are still untrusted.
 Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes = nullptr);
 
 /// Length of the rprr_msgs/EncodedFrame that carries data_bytes, serialised by ROS.

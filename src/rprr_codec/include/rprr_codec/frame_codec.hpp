@@ -30,8 +30,8 @@ class FrameEncoder {
   /// Fills depth, colour, colour_codec and the independent bytes and encode time of the report from
   /// the images; camera, sparse, mask and the rest are the caller's. The encode time is that of
   /// what is sent, without the independent measurement. A sparse frame whose mask has no block gets
-  /// empty payloads. Errors: images or a mask that are not of the camera's size, an encoder that
-  /// failed.
+  /// empty payloads. Errors: images or a mask that are not of the camera's size, depth_mask beyond
+  /// mask, an encoder that failed.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame);
 
  private:
@@ -47,7 +47,7 @@ class FrameEncoder {
 };
 
 struct DecodedFrame {
-  DepthFrame depth;  // sparse: 0 outside the mask's blocks
+  DepthFrame depth;  // sparse: 0 outside of depth_blocks()
   cv::Mat bgr;       // CV_8UC3; sparse: meaningful in the mask's blocks only
 };
 

@@ -63,6 +63,8 @@ struct RebuiltFrame {
   int blocks_total = 0;
   int blocks_sent = 0;
   int blocks_sent_without_depth = 0;
+  int blocks_colour_only = 0;
+  BlockMask received_depth;      // sparse: blocks whose depth is exactly the sender's
   EncodedSizes sizes;            // of the container
   FrameReport report;            // what the sender said of itself: untrusted
   std::size_t bytes_masks = 0;   // both ways: the sender's report and the mask in the container

@@ -29,11 +29,13 @@ class Stitcher {
  public:
   explicit Stitcher(UnknownFill fill = UnknownFill::kSmooth) : fill_(fill) {}
 
-  /// Pixels of the mask's blocks come from the received images exactly as they are; the others from
-  /// the prediction, depth rounded to the received depth's unit. The images in the result are new
-  /// memory. Errors: sizes or types that differ.
+  /// Colours of the mask's blocks and depths of depth_mask's blocks come from the received images
+  /// exactly as they are; the others from the prediction, depth rounded to the received depth's
+  /// unit. Provenance is that of the colours. The images in the result are new memory. Errors:
+  /// sizes or types that differ.
   Result<StitchedView> stitch(const PredictedView& predicted, const cv::Mat& received_bgr,
-                              const DepthFrame& received_depth, const BlockMask& mask);
+                              const DepthFrame& received_depth, const BlockMask& mask,
+                              const BlockMask& depth_mask);
 
  private:
   UnknownFill fill_;
