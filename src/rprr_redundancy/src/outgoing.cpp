@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "rprr_geometry/block_mask_pair.hpp"
+
 namespace rprr {
 
 Outgoing::Outgoing(std::string robot, OutgoingOptions options)
@@ -90,9 +92,9 @@ bool Outgoing::waits(Stamp stamp) const {
 }
 
 OutgoingDecision Outgoing::decide(const Waiting& frame, const Early& prediction) {
-  const Result<BlockMask> predicted = prediction.too_long
-                                          ? Result<BlockMask>(Error{"block mask too long"})
-                                          : decode_mask(prediction.mask, frame.validated.grid());
+  const Result<BlockMaskPair> predicted =
+      prediction.too_long ? Result<BlockMaskPair>(Error{"block mask too long"})
+                          : decode_mask_pair(prediction.mask, frame.validated.grid());
   OutgoingDecision decision;
   if (!predicted) {
     decision = give_up(frame, "unreadable prediction: " + predicted.reason());
@@ -103,10 +105,12 @@ OutgoingDecision Outgoing::decide(const Waiting& frame, const Early& prediction)
   decision.stamp = frame.stamp;
   decision.exchange = frame.exchange;
   decision.sparse = true;
-  decision.blocks_predicted = predicted->count();
+  decision.blocks_predicted = predicted->colour.count();
   decision.blocks_validated = frame.validated.count();
-  decision.mask = *predicted;
+  decision.mask = predicted->colour;
   decision.mask |= frame.validated;
+  decision.depth_mask = predicted->depth;
+  decision.depth_mask |= frame.validated;
   decision.message_bytes = prediction.message_bytes;
   return decision;
 }

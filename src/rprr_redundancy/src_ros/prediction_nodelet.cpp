@@ -3,27 +3,31 @@
 #include <rprr_msgs/BlockMask.h>
 #include <rprr_msgs/ExchangeEvent.h>
 #include <rprr_msgs/OutgoingFrame.h>
+#include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <memory>
+#include <optional>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 #include <vector>
 
 #include "frame_matcher.hpp"
 #include "outgoing_message.hpp"
-#include "rprr_geometry/block_mask.hpp"
+#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_geometry/preview.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/worker.hpp"
-#include "rprr_redundancy/prediction.hpp"
+#include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
 
 namespace rprr {
 
 /// The reference robot's side: hands its frames of exchanges to the encoder, once each, and tells
-/// dependents which blocks to send (B_p).
+/// dependents which blocks to send (B_p, or with a
+/// preview the whole decision).
 class PredictionNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -41,6 +45,7 @@ class PredictionNodelet : public nodelet::Nodelet {
     health_ = std::make_unique<Health>(nh, private_nh, "prediction", robot_);
     const std::string prefix = "/" + robot_ + "/rprr/";
     outgoing_ = nh.advertise<rprr_msgs::OutgoingFrame>(prefix + "outgoing", 4);
+    picture_ = nh.advertise<sensor_msgs::Image>(prefix + "decision", 2);
     prediction_ = nh.advertise<rprr_msgs::BlockMask>(prefix + "prediction", 4);
     worker_ = std::make_unique<Worker>(8);
     matcher_ = std::make_unique<FrameMatcher>(
@@ -105,17 +110,47 @@ class PredictionNodelet : public nodelet::Nodelet {
                                                  "' is no rigid motion; its frame will come whole");
     }
     const ros::WallTime start = ros::WallTime::now();
-    const BlockMask predicted = predictor_.predict(frame.depth, frame.camera, *camera, m_ab);
+    const std::optional<BlockPreview> preview = preview_of(event);
+    const BlockDecision decision = decider_.decide(frame.depth, frame.bgr, frame.camera, *camera,
+                                                   m_ab, preview ? &*preview : nullptr);
     auto message = boost::make_shared<rprr_msgs::BlockMask>();
     message->header.stamp = event.pose.dependent_stamp;  // no frame_id: radio bytes
     message->receiver = event.peer;
     message->exchange = event.exchange;
-    message->data = encode_mask(predicted);
+    message->data = encode_mask_pair(decision.send);
     prediction_.publish(message);
     health_->count("predictions");
-    health_->show("last prediction, blocks", std::to_string(predicted.count()));
+    report(decision);
     health_->show("last prediction, ms",
                   std::to_string((ros::WallTime::now() - start).toSec() * 1e3));
+    if (decision.from_preview && picture_.getNumSubscribers() > 0) {
+      std_msgs::Header header;
+      header.stamp = event.pose.dependent_stamp;
+      header.frame_id = optical_frame(event.peer);
+      picture_.publish(to_image(header, sensor_msgs::image_encodings::BGR8,
+                                decision_picture(*preview, decision.send)));
+    }
+  }
+
+  std::optional<BlockPreview> preview_of(const rprr_msgs::ExchangeEvent& event) {
+    if (event.peer_preview.empty()) return {};
+    Result<BlockPreview> preview = decode_preview(event.peer_preview);
+    if (preview) return std::move(*preview);
+    health_->error("peer preview", "preview of '" + event.peer + "': " + preview.reason() +
+                                       "; the blocks are decided without it");
+    return {};
+  }
+
+  void report(const BlockDecision& decision) {
+    const auto show = [this](const std::string& what, int blocks) {
+      health_->show("last prediction, " + what, std::to_string(blocks));
+    };
+    show("blocks", decision.send.colour.count());
+    show("blocks of colour only", decision.send.colour.count() - decision.send.depth.count());
+    show("blocks not covered", decision.uncovered);
+    show("blocks outside of the view", decision.outside);
+    show("blocks hidden", decision.hidden);
+    show("blocks of another colour", decision.recoloured);
   }
 
   // In the order in which they need each other: what is below is destroyed first.
@@ -124,8 +159,9 @@ class PredictionNodelet : public nodelet::Nodelet {
   std::unique_ptr<Health> health_;
   ros::Publisher outgoing_;
   ros::Publisher prediction_;
+  ros::Publisher picture_;
   RecentStamps sent_;
-  Predictor predictor_;  // the worker's
+  Decider decider_;  // the worker's
   std::unique_ptr<Worker> worker_;
   std::unique_ptr<FrameMatcher> matcher_;
   std::unique_ptr<RgbdSubscriber> images_;

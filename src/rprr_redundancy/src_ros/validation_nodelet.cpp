@@ -189,6 +189,7 @@ class ValidationNodelet : public nodelet::Nodelet {
       message->translation = pose.translation;
       message->rotation = pose.rotation;
       message->mask = encode_mask(decision.mask);
+      message->depth_mask = encode_mask(decision.depth_mask);
       message->blocks_predicted = static_cast<std::uint32_t>(decision.blocks_predicted);
       message->blocks_validated = static_cast<std::uint32_t>(decision.blocks_validated);
     } else {
@@ -197,10 +198,12 @@ class ValidationNodelet : public nodelet::Nodelet {
     health_->count(decision.sparse ? "frames sparse" : "frames whole");
     outgoing_publisher_.publish(message);
     const BlockGrid grid(held.frame->camera.width, held.frame->camera.height);
-    show(*held.frame, decision.sparse ? decision.mask : BlockMask(grid, true));
+    const BlockMask all(grid, true);
+    show(*held.frame, decision.sparse ? decision.mask : all,
+         decision.sparse ? decision.depth_mask : all);
   }
 
-  void show(const RgbdFrame& frame, const BlockMask& mask) {
+  void show(const RgbdFrame& frame, const BlockMask& mask, const BlockMask& depth_mask) {
     namespace encodings = sensor_msgs::image_encodings;
     if (mask_publisher_.getNumSubscribers() > 0) {
       mask_publisher_.publish(to_image(frame.header, encodings::MONO8, mask.to_image()));
@@ -211,7 +214,7 @@ class ValidationNodelet : public nodelet::Nodelet {
       }
     }
     if (depth_publisher_.getNumSubscribers() > 0) {
-      if (const Result<cv::Mat> counts = keep_blocks(frame.depth.counts, mask)) {
+      if (const Result<cv::Mat> counts = keep_blocks(frame.depth.counts, depth_mask)) {
         depth_publisher_.publish(to_depth_image(frame.header, {*counts, frame.depth.unit}));
       }
     }

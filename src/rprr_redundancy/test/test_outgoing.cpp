@@ -8,6 +8,8 @@
 #include <map>
 #include <random>
 
+#include "rprr_geometry/block_mask_pair.hpp"
+
 namespace rprr {
 namespace {
 
@@ -59,6 +61,19 @@ TEST_F(OutgoingTest, SparseIsTheUnionOfBothSets) {
   EXPECT_EQ(decisions[0].message_bytes, block_mask_message_bytes(0, 1, predicted.size()));
   EXPECT_EQ(outgoing.waiting(), 0u);
   EXPECT_TRUE(outgoing.tick(10 * kTimeout).empty()) << "decided frames do not time out";
+}
+
+TEST_F(OutgoingTest, DepthIsWhatTheReferenceAsksForAndWhatItCannotSee) {
+  outgoing.accepted(100, 4, mask_of({3, 9}), 0);
+  const Bytes pair = encode_mask_pair({mask_of({1, 2, 3}), mask_of({2})});
+  const auto decisions = outgoing.prediction(message(4, 100, pair), 1);
+  ASSERT_EQ(decisions.size(), 1u);
+  EXPECT_TRUE(decisions[0].mask == mask_of({1, 2, 3, 9}));
+  EXPECT_TRUE(decisions[0].depth_mask == mask_of({2, 3, 9}));
+  outgoing.accepted(101, 5, mask_of({9}), 1);
+  const auto paper = outgoing.prediction(message(5, 101, predicted), 1);
+  ASSERT_EQ(paper.size(), 1u);
+  EXPECT_TRUE(paper[0].depth_mask == paper[0].mask) << "one mask stands for both";
 }
 
 TEST_F(OutgoingTest, PredictionMayComeFirst) {

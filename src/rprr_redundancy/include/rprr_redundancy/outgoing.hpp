@@ -35,8 +35,9 @@ struct OutgoingDecision {
   std::uint32_t exchange = 0;  // 0: none
   bool sparse = false;
   std::string reason;             // whole: why
-  BlockMask mask;                 // sparse: B_p u B_v
-  int blocks_predicted = 0;       // sparse: |B_p|
+  BlockMask mask;                 // sparse: what a asks for (B_p, or with a preview more) u B_v
+  BlockMask depth_mask;           // sparse: of these, blocks to send with depth
+  int blocks_predicted = 0;       // sparse: blocks that a asks for
   int blocks_validated = 0;       // sparse: |B_v|
   std::size_t message_bytes = 0;  // of the prediction, serialised; also where it was of no use
 };
@@ -46,7 +47,7 @@ struct PredictionMessage {
   std::string receiver;
   std::uint32_t exchange = 0;
   Stamp stamp = 0;  // of the frame of b that the blocks belong to
-  ByteView mask;
+  ByteView mask;    // rprr_geometry/block_mask_pair.hpp
   std::size_t frame_id_length = 0;
 };
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_redundancy/decision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "colour_gain.hpp"
+
+namespace rprr {
+namespace {
+
+constexpr std::size_t kFewestForGain = 50;  // blocks; with fewer, colours are not judged
+constexpr std::size_t kMostForGain = 1200;
+constexpr float kDark = 6.0f;  // grey levels beyond which a camera clips
+constexpr float kBright = 249.0f;
+
+struct Sums {
+  int pixels = 0;
+  int agreeing = 0;
+  int bgr[3] = {0, 0, 0};
+  std::uint32_t cells = 0;  // a bit for each 2x2 cell, row by row
+};
+
+int bits_of(std::uint32_t cells) {
+  int count = 0;
+  for (; cells != 0; cells &= cells - 1) ++count;
+  return count;
+}
+
+Sums sum_up(const WarpedDepth& warped, const cv::Rect& rect, float nearest, float farthest,
+            const std::uint8_t* colours) {
+  Sums sums;
+  for (int v = 0; v < rect.height; ++v) {
+    const float* z = warped.metres.ptr<float>(rect.y + v) + rect.x;
+    const int* source = warped.source.ptr<int>(rect.y + v) + rect.x;
+    for (int u = 0; u < rect.width; ++u) {
+      if (source[u] < 0) continue;
+      ++sums.pixels;
+      sums.agreeing += static_cast<int>(z[u] >= nearest) & static_cast<int>(z[u] <= farthest);
+      sums.cells |= 1u << (v / 2 * 4 + u / 2);
+      const std::uint8_t* colour = colours + 3 * static_cast<std::ptrdiff_t>(source[u]);
+      for (int c = 0; c < 3; ++c) sums.bgr[c] += colour[c];
+    }
+  }
+  return sums;
+}
+
+bool of_size(const cv::Mat& image, const Camera& camera) {
+  return image.cols == camera.width && image.rows == camera.height;
+}
+
+// The preview may come from a radio: its parts must fit each other and b's camera.
+bool usable(const BlockPreview& b, const Camera& b_camera) {
+  const cv::Size blocks(b.grid.columns, b.grid.rows);
+  return b.grid.width == b_camera.width && b.grid.height == b_camera.height &&
+         b.inverse_depth.size() == blocks && b.inverse_depth.type() == CV_16UC1 &&
+         b.inverse_depth.isContinuous() && b.bgr.size() == blocks && b.bgr.type() == CV_8UC3 &&
+         b.bgr.isContinuous() && b.step > 0.0;
+}
+
+}  // namespace
+
+float Decider::tolerance(float z, double step) const {
+  const auto sigma = static_cast<float>(depth_sigma(static_cast<double>(z)));
+  const auto rounding = static_cast<float>(step) * 0.5f * z * z;
+  return options_.depth_tolerance + options_.depth_tolerance_share * z + 2.0f * sigma + rounding;
+}
+
+BlockDecision Decider::decide(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
+                              const Camera& b_camera, const Pose& m_ab,
+                              const BlockPreview* b_preview) {
+  BlockDecision decision;
+  decision.send.colour = predictor_.predict(a, a_camera, b_camera, m_ab);
+  const bool fits = b_preview != nullptr && usable(*b_preview, b_camera) &&
+                    of_size(a.counts, a_camera) && of_size(a_bgr, a_camera) &&
+                    a_bgr.type() == CV_8UC3 && a_bgr.isContinuous();
+  if (!fits) {
+    decision.send.depth = decision.send.colour;
+    decision.uncovered = decision.send.colour.count();
+    return decision;
+  }
+  decision.from_preview = true;
+  decision.send = {BlockMask(b_preview->grid), BlockMask(b_preview->grid)};
+  gather(a_bgr, *b_preview);
+  look_back(a_camera, b_camera, m_ab, *b_preview);
+  judge_surfaces(*b_preview, decision);
+  judge_colours(*b_preview, decision);
+  return decision;
+}
+
+void Decider::gather(const cv::Mat& a_bgr, const BlockPreview& b) {
+  const WarpedDepth& warped = predictor_.warped();
+  evidence_.assign(static_cast<std::size_t>(b.grid.count()), {});
+  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
+  for (int block = 0; block < b.grid.count(); ++block) {
+    const cv::Rect rect = b.grid.rect(block);
+    float nearest = 0.0f;
+    float farthest = 0.0f;
+    if (counts[block] != 0) {
+      const auto z = static_cast<float>(1.0 / (counts[block] * b.step));
+      const float reach = tolerance(z, b.step);
+      nearest = z - reach;
+      farthest = z + reach;
+    }
+    const Sums sums = sum_up(warped, rect, nearest, farthest, a_bgr.ptr<std::uint8_t>());
+    if (sums.pixels == 0) continue;
+    const auto pixels = static_cast<float>(sums.pixels);
+    const int cells = (rect.width + 1) / 2 * ((rect.height + 1) / 2);
+    Evidence& evidence = evidence_[static_cast<std::size_t>(block)];
+    evidence.coverage = static_cast<float>(bits_of(sums.cells)) / static_cast<float>(cells);
+    evidence.agreement = static_cast<float>(sums.agreeing) / pixels;
+    for (int c = 0; c < 3; ++c) evidence.bgr[c] = static_cast<float>(sums.bgr[c]) / pixels;
+  }
+}
+
+void Decider::look_back(const Camera& a_camera, const Camera& b_camera, const Pose& m_ab,
+                        const BlockPreview& b) {
+  const Pose m_ba = m_ab.inverse();
+  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
+  for (int block = 0; block < b.grid.count(); ++block) {
+    if (counts[block] == 0) continue;
+    const cv::Rect rect = b.grid.rect(block);
+    const Eigen::Vector3d p =
+        m_ba * b_camera.unproject(rect.x + 0.5 * (rect.width - 1), rect.y + 0.5 * (rect.height - 1),
+                                  1.0 / (counts[block] * b.step));
+    bool& sees = evidence_[static_cast<std::size_t>(block)].sees_a;
+    sees = p.z() > 0.0;
+    if (!sees) continue;
+    const Eigen::Vector2d pixel = a_camera.project(p);
+    sees = a_camera.contains(pixel.x(), pixel.y());
+  }
+}
+
+void Decider::judge_surfaces(const BlockPreview& b, BlockDecision& decision) const {
+  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
+  for (int block = 0; block < b.grid.count(); ++block) {
+    const Evidence& evidence = evidence_[static_cast<std::size_t>(block)];
+    const bool has_depth = counts[block] != 0;
+    int* reason = nullptr;
+    if (evidence.coverage < options_.least_coverage) {
+      reason = &decision.uncovered;
+    } else if (!evidence.sees_a) {
+      reason = &decision.outside;
+    } else if (has_depth && evidence.agreement < options_.least_agreement) {
+      reason = &decision.hidden;
+    }
+    if (reason == nullptr) continue;
+    ++*reason;
+    decision.send.colour.set(block);
+    decision.send.depth.set(block, has_depth);
+  }
+}
+
+bool Decider::fit_gains(const BlockPreview& b, const BlockMask& another_surface,
+                        std::array<ColourGain, 3>& gains) const {
+  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
+  const auto* colours = b.bgr.ptr<cv::Vec3b>();
+  std::vector<int> sure;  // b's own depth says that the surface is the same
+  for (int block = 0; block < b.grid.count(); ++block) {
+    if (!another_surface[block] && counts[block] != 0) sure.push_back(block);
+  }
+  std::vector<ColourPair> pairs;
+  std::vector<float> buffer;
+  const std::size_t stride = (sure.size() + kMostForGain - 1) / kMostForGain;
+  for (int c = 0; c < 3; ++c) {
+    pairs.clear();
+    for (std::size_t i = 0; i < sure.size(); i += std::max<std::size_t>(stride, 1)) {
+      const float x = evidence_[static_cast<std::size_t>(sure[i])].bgr[c];
+      const auto y = static_cast<float>(colours[sure[i]][c]);
+      if (x > kDark && x < kBright && y > kDark && y < kBright) pairs.push_back({x, y});
+    }
+    if (pairs.size() < kFewestForGain) return false;
+    gains[static_cast<std::size_t>(c)] = fit_colour_gain(pairs, buffer);
+  }
+  return true;
+}
+
+void Decider::judge_colours(const BlockPreview& b, BlockDecision& decision) const {
+  std::array<ColourGain, 3> gains;
+  if (!fit_gains(b, decision.send.colour, gains)) return;
+  const auto* colours = b.bgr.ptr<cv::Vec3b>();
+  for (int block = 0; block < b.grid.count(); ++block) {
+    if (decision.send.colour[block]) continue;
+    bool differs = false;
+    for (int c = 0; c < 3; ++c) {
+      const ColourGain& gain = gains[static_cast<std::size_t>(c)];
+      const float expected = gain.apply(evidence_[static_cast<std::size_t>(block)].bgr[c]);
+      const float allowed = options_.colour_tolerance + options_.colour_sigmas * gain.spread;
+      differs = differs || std::abs(static_cast<float>(colours[block][c]) - expected) > allowed;
+    }
+    if (!differs) continue;
+    ++decision.recoloured;
+    decision.send.colour.set(block);
+  }
+}
+
+cv::Mat decision_picture(const BlockPreview& preview, const BlockMaskPair& send) {
+  cv::Mat picture(preview.grid.height, preview.grid.width, CV_8UC3);
+  const auto* colours = preview.bgr.ptr<cv::Vec3b>();
+  const auto tinted = [](const cv::Vec3b& colour, const cv::Vec3b& tint) {
+    cv::Vec3b mixed;
+    for (int c = 0; c < 3; ++c) mixed[c] = static_cast<std::uint8_t>((colour[c] + tint[c]) / 2);
+    return mixed;
+  };
+  for (int block = 0; block < preview.grid.count(); ++block) {
+    cv::Vec3b colour = colours[block];
+    if (send.depth[block]) {
+      colour = tinted(colour, {0, 0, 255});
+    } else if (send.colour[block]) {
+      colour = tinted(colour, {255, 0, 0});
+    }
+    picture(preview.grid.rect(block)).setTo(cv::Scalar(colour[0], colour[1], colour[2]));
+  }
+  return picture;
+}
+
+}  // namespace rprr
