@@ -9,7 +9,49 @@ namespace rprr {
 namespace {
 
 using Vector6f = Eigen::Matrix<float, 6, 1>;
-using Matrix6f = Eigen::Matrix<float, 6, 6>;
+
+// Lower triangle of a symmetric 6x6 matrix, row by row.
+struct Symmetric6 {
+  float at[21] = {};
+  void add(const Vector6f& row, float weight) {
+    int k = 0;
+    for (int i = 0; i < 6; ++i) {
+      const float scaled = weight * row[i];
+      for (int j = 0; j <= i; ++j) at[k++] += scaled * row[j];
+    }
+  }
+  Matrix6 full() const {
+    Matrix6 out;
+    int k = 0;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) out(i, j) = out(j, i) = at[k++];
+    }
+    return out;
+  }
+};
+
+// A camera in float32, for the inner loop.
+struct Pinhole {
+  float fx = 0, fy = 0, cx = 0, cy = 0;
+  int width = 0, height = 0;
+  Pinhole() = default;
+  explicit Pinhole(const Camera& camera)
+      : fx(static_cast<float>(camera.fx)),
+        fy(static_cast<float>(camera.fy)),
+        cx(static_cast<float>(camera.cx)),
+        cy(static_cast<float>(camera.cy)),
+        width(camera.width),
+        height(camera.height) {}
+  // Index of the pixel at the normalised coordinates, or -1.
+  int index(float x, float y) const {
+    const float u = fx * x + cx + 0.5f;
+    const float v = fy * y + cy + 0.5f;
+    if (!(u >= 0.0f && v >= 0.0f)) return -1;
+    const auto c = static_cast<int>(u);
+    const auto r = static_cast<int>(v);
+    return c < width && r < height ? r * width + c : -1;
+  }
+};
 
 constexpr float kNearest = 0.1f;
 constexpr float kHuber = 1.5f;        // in sigmas
@@ -48,8 +90,8 @@ struct Exposure {
 };
 
 struct Accumulator {
-  Matrix6f geometric = Matrix6f::Zero();
-  Matrix6f photometric = Matrix6f::Zero();
+  Symmetric6 geometric;
+  Symmetric6 photometric;
   Vector6f gradient = Vector6f::Zero();
   double chi2_geometry = 0, chi2_luma = 0;
   int geometry = 0, luma = 0;
@@ -57,8 +99,8 @@ struct Accumulator {
   // Moments for the next exposure.
   double m = 0, f = 0, mm = 0, ff = 0, mf = 0;
 
-  void add(Matrix6f& information, const Vector6f& row, float residual, float weight) {
-    information.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+  void add(Symmetric6& information, const Vector6f& row, float residual, float weight) {
+    information.add(row, weight);
     gradient.noalias() -= row * (weight * residual);
   }
   void see(float moving, float fixed) {
@@ -88,10 +130,13 @@ struct Accumulator {
 class Linearizer {
  public:
   Linearizer(const PreviewView& moving, const FixedView& fixed, const AlignmentOptions& options)
-      : moving_(moving), fixed_(fixed), options_(options), cells_(*fixed.cells) {
+      : moving_(moving), options_(options), cells_(*fixed.cells) {
     const bool fine = !fixed.luma.empty();
     luma_ = fine ? fixed.luma.ptr<float>() : cells_.luma.data();
-    luma_camera_ = fine ? fixed.luma_camera : cells_.camera;
+    luma_camera_ = Pinhole(fine ? fixed.luma_camera : cells_.camera);
+    cell_camera_ = Pinhole(cells_.camera);
+    metres_camera_ = Pinhole(fixed.metres_camera);
+    metres_ = fixed.metres.empty() ? nullptr : fixed.metres.ptr<float>();
   }
 
   Accumulator at(const Pose& motion, float gate, const Exposure& exposure) const {
@@ -115,12 +160,9 @@ class Linearizer {
     const float inverse = 1.0f / p.z();
     const float x = p.x() * inverse;
     const float y = p.y() * inverse;
-    const auto c = static_cast<int>(std::floor(static_cast<float>(cells_.camera.fx) * x +
-                                               static_cast<float>(cells_.camera.cx) + 0.5f));
-    const auto r = static_cast<int>(std::floor(static_cast<float>(cells_.camera.fy) * y +
-                                               static_cast<float>(cells_.camera.cy) + 0.5f));
-    if (c < 0 || r < 0 || c >= cells_.width() || r >= cells_.height()) return;
-    const auto j = static_cast<std::size_t>(r * cells_.width() + c);
+    const int index = cell_camera_.index(x, y);
+    if (index < 0) return;
+    const auto j = static_cast<std::size_t>(index);
     const float z = fixed_depth(j, x, y);
     if (z == 0.0f) return;
     const float off = p.z() - z;
@@ -152,12 +194,11 @@ class Linearizer {
 
   void photometric(std::size_t i, const Eigen::Vector3f& p, float x, float y,
                    const Exposure& exposure, Accumulator& sums) const {
-    const auto fx = static_cast<float>(luma_camera_.fx);
-    const auto fy = static_cast<float>(luma_camera_.fy);
+    const float fx = luma_camera_.fx;
+    const float fy = luma_camera_.fy;
     Luma luma;
-    if (!sample(luma_, luma_camera_.width, luma_camera_.height,
-                fx * x + static_cast<float>(luma_camera_.cx),
-                fy * y + static_cast<float>(luma_camera_.cy), luma)) {
+    if (!sample(luma_, luma_camera_.width, luma_camera_.height, fx * x + luma_camera_.cx,
+                fy * y + luma_camera_.cy, luma)) {
       return;
     }
     sums.see(moving_.luma[i], luma.value);
@@ -177,7 +218,7 @@ class Linearizer {
   }
 
   float fixed_depth(std::size_t cell, float x, float y) const {
-    if (fixed_.metres.empty()) {
+    if (!metres_) {
       // The cell's plane, met by the ray through the point.
       const float z = cells_.z[cell];
       if (z == 0.0f) return 0.0f;
@@ -188,21 +229,16 @@ class Linearizer {
       const float met = distance / facing;
       return std::abs(met - z) < 0.1f * kFlat ? met : z;
     }
-    const Camera& camera = fixed_.metres_camera;
-    const auto u = static_cast<int>(
-        std::floor(static_cast<float>(camera.fx) * x + static_cast<float>(camera.cx) + 0.5f));
-    const auto v = static_cast<int>(
-        std::floor(static_cast<float>(camera.fy) * y + static_cast<float>(camera.cy) + 0.5f));
-    if (u < 0 || v < 0 || u >= camera.width || v >= camera.height) return 0.0f;
-    return fixed_.metres.at<float>(v, u);
+    const int index = metres_camera_.index(x, y);
+    return index < 0 ? 0.0f : metres_[index];
   }
 
   const PreviewView& moving_;
-  const FixedView& fixed_;
   const AlignmentOptions& options_;
   const PreviewView& cells_;
   const float* luma_;
-  Camera luma_camera_;
+  const float* metres_ = nullptr;
+  Pinhole luma_camera_, cell_camera_, metres_camera_;
 };
 
 }  // namespace
@@ -218,9 +254,8 @@ bool align(const PreviewView& moving, const FixedView& fixed, const AlignmentOpt
   exposure = linearizer.at(motion, gate, exposure).exposure();
   for (int i = 0; i < options.iterations; ++i) {
     const Accumulator found = linearizer.at(motion, gate, exposure);
-    sums.geometric = Matrix6f(found.geometric.selfadjointView<Eigen::Lower>()).cast<double>();
-    sums.information =
-        sums.geometric + Matrix6f(found.photometric.selfadjointView<Eigen::Lower>()).cast<double>();
+    sums.geometric = found.geometric.full();
+    sums.information = sums.geometric + found.photometric.full();
     sums.chi2_geometry = found.chi2_geometry;
     sums.chi2_luma = found.chi2_luma;
     sums.geometry = found.geometry;
