@@ -166,8 +166,8 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() cons
     candidates.emplace_back();
     candidates.back().motion = start;
   }
-  narrow(candidates, middle, {3, 4, 0.8f, 0.5f, 16.0f}, 32, 0.04, 1.5);
-  narrow(candidates, middle, {4, 2, 0.4f, 0.2f, 14.0f}, 12, 0.05, 2.0);
+  narrow(candidates, middle, {4, 4, 1.0f, 0.5f, 16.0f}, 40, 0.04, 1.5);
+  narrow(candidates, middle, {5, 2, 0.5f, 0.2f, 14.0f}, 14, 0.05, 2.0);
   slide(candidates);
   narrow(candidates, middle, {4, 3, 0.25f, 0.2f, 14.0f}, 12, 0.05, 2.0);
   narrow(candidates, 0, {4, 3, 0.25f, 0.12f, 12.0f}, 6, 0.05, 2.0);

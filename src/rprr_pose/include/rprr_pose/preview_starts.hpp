@@ -14,7 +14,7 @@ struct StartRange {
   double pitch = 36.0;
   double roll = 24.0;
   double step = 6.0;
-  std::size_t rotations = 10;  // distinct ones kept
+  std::size_t rotations = 14;  // distinct ones kept
 };
 
 /// Motions from the moving to the fixed view worth trying. Every rotation of a grid is judged on
