@@ -24,6 +24,11 @@ class ExchangeRegistration final : public Registration {
   std::string name() const override { return name_; }
 
   RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+    if (profile_.use_previews && (a.bgr.empty() || b.bgr.empty())) {
+      RegistrationResult without_colour;  // a preview cannot do without
+      without_colour.motion = start;
+      return without_colour;
+    }
     constexpr Stamp kStamp = from_seconds(1000.0);
     ExchangeHarness harness = make_exchange(profile_, 0);
     const ExchangeOutcome outcome =

@@ -31,6 +31,7 @@ std::shared_ptr<o3d::PointCloud> cloud_of(const PoseFrame& frame) {
     }
   }
   auto sparse = cloud.VoxelDownSample(kVoxel);
+  if (sparse->points_.size() < kFewestPoints) return sparse;  // Open3D throws without normals
   sparse->EstimateNormals(o3d::KDTreeSearchParamHybrid(2.0 * kVoxel, 30));
   sparse->OrientNormalsTowardsCameraLocation();
   return sparse;

@@ -2,6 +2,7 @@
 #include "rprr_eval/peers.hpp"
 
 #ifdef RPRR_HAVE_PCL
+#include <pcl/console/print.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/gicp.h>
@@ -61,6 +62,8 @@ RegistrationResult run(Method& method, const typename Cloud::Ptr& a, const typen
   RegistrationResult result;
   result.motion = start;
   if (a->size() < kFewestPoints || b->size() < kFewestPoints) return result;
+  // What it would print, the result says as well.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   method.setInputSource(a);
   method.setInputTarget(b);
   method.setMaxCorrespondenceDistance(kReach);
