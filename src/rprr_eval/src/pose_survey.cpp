@@ -104,6 +104,7 @@ PoseTally& PoseTally::operator+=(const PoseTally& other) {
   append(degrees, other.degrees);
   append(ms, other.ms);
   append(bytes, other.bytes);
+  wrong_pairs.insert(wrong_pairs.end(), other.wrong_pairs.begin(), other.wrong_pairs.end());
   return *this;
 }
 
@@ -115,7 +116,10 @@ Result<bool> survey_pair(FrameSource& source, const KnownPair& pair, Registratio
   if (!b) return Error{b.reason()};
   const double start = processor_ms();
   const RegistrationResult result = method.align(**a, **b, Pose::Identity());
-  tally.add(result, pair.truth, processor_ms() - start);
+  const double ms = processor_ms() - start;
+  const int wrong_before = tally.accepted_wrong;
+  tally.add(result, pair.truth, ms);
+  if (tally.accepted_wrong > wrong_before) tally.wrong_pairs.push_back(pair);
   return true;
 }
 

@@ -27,6 +27,8 @@ struct PosesArguments {
 };
 
 nlohmann::json to_json(const std::string& method, const std::string& bin, const PoseTally& tally) {
+  nlohmann::json wrong_pairs = nlohmann::json::array();
+  for (const KnownPair& pair : tally.wrong_pairs) wrong_pairs.push_back({pair.a, pair.b});
   return {{"method", method},
           {"overlap", bin},
           {"pairs", tally.pairs},
@@ -34,6 +36,7 @@ nlohmann::json to_json(const std::string& method, const std::string& bin, const 
           {"accepted", tally.accepted},
           {"accepted_right", tally.accepted_right},
           {"accepted_wrong", tally.accepted_wrong},
+          {"wrong_pairs", wrong_pairs},
           {"wrong_rate_upper_95", clopper_pearson_upper(tally.accepted_wrong, tally.pairs)},
           {"median_m", median(tally.metres)},
           {"median_deg", median(tally.degrees)},

@@ -54,6 +54,7 @@ struct PoseTally {
   std::vector<double> metres, degrees;  // errors of solved pairs
   std::vector<double> ms;               // processor time, all pairs
   std::vector<double> bytes;            // all pairs
+  std::vector<KnownPair> wrong_pairs;   // those accepted and wrong (survey_pair)
 
   void add(const RegistrationResult& result, const Pose& truth, double milliseconds);
   PoseTally& operator+=(const PoseTally& other);
