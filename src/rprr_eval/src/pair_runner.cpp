@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_sensor/motion.hpp"
 #include "rprr_station/provenance.hpp"
@@ -37,9 +38,11 @@ PoseFramePtr pose_frame(const RgbdImage& image, const Camera& camera, Stamp stam
 }
 
 bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& truth) {
+  const BlockGrid grid(truth.width(), truth.height());
   for (int v = 0; v < truth.height(); ++v) {
     for (int u = 0; u < truth.width(); ++u) {
       if (rebuilt.provenance.at<std::uint8_t>(v, u) != kReceived) continue;
+      if (rebuilt.sparse && !rebuilt.received_depth[grid.index_of_pixel(u, v)]) continue;
       if (rebuilt.depth.counts.at<std::uint16_t>(v, u) != truth.counts.at<std::uint16_t>(v, u)) {
         return false;
       }
@@ -79,7 +82,7 @@ struct PairRunner::Robots {
   }
 
   ExchangeHarness harness;
-  Predictor predictor;
+  Decider decider;
   Validator validator;
   Outgoing outgoing;
   FrameEncoder encoder;
@@ -92,7 +95,7 @@ namespace {
 
 // What b sends, decided by b's own state machine from the exchange and a's prediction.
 OutgoingDecision decide(PairResult& result, const PoseFramePtr& a, const PoseFramePtr& b,
-                        Predictor& predictor, Validator& validator, Outgoing& outgoing, Stamp now) {
+                        Decider& decider, Validator& validator, Outgoing& outgoing, Stamp now) {
   const FrameDecision& at_b = result.exchange.at_dependent;
   if (at_b.action != FrameDecision::Action::kSendSparse || !result.exchange.at_reference) {
     const auto decisions = outgoing.whole(b->stamp, at_b.exchange, at_b.reason);
@@ -100,9 +103,11 @@ OutgoingDecision decide(PairResult& result, const PoseFramePtr& a, const PoseFra
   }
   Bytes mask;
   result.ms_predict = milliseconds([&] {
-    mask = encode_mask(predictor.predict(a->depth, a->camera,
-                                         *result.exchange.at_reference->peer_camera,
-                                         result.exchange.at_reference->pose.motion));
+    const FrameDecision& at_a = *result.exchange.at_reference;
+    const Result<BlockPreview> preview = decode_preview(at_a.peer_preview);
+    const BlockDecision decision = decider.decide(a->depth, a->bgr, a->camera, *at_a.peer_camera,
+                                                  at_a.pose.motion, preview ? &*preview : nullptr);
+    mask = encode_mask_pair(decision.send);
   });
   BlockMask validated;
   result.ms_validate = milliseconds([&] {
@@ -124,6 +129,7 @@ EncodedFrame frame_to_encode(const PoseFrame& b, const FrameDecision& at_b,
     encoded.reference_stamp = at_b.pose.stamp;
     encoded.motion = at_b.pose.motion;
     encoded.mask = decision.mask;
+    encoded.depth_mask = decision.depth_mask;
   }
   FrameReport& report = encoded.report;
   report.blocks_predicted = static_cast<std::uint16_t>(decision.blocks_predicted);
@@ -189,7 +195,7 @@ Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::
 
   // a and b agree on their pose, a predicts, b validates, encodes and sends.
   result.exchange = robots.harness.run(frame_a, frame_b);
-  const OutgoingDecision decision = decide(result, frame_a, frame_b, robots.predictor,
+  const OutgoingDecision decision = decide(result, frame_a, frame_b, robots.decider,
                                            robots.validator, robots.outgoing, robots.now);
   result.blocks_predicted = decision.blocks_predicted;
   result.blocks_validated = decision.blocks_validated;
