@@ -19,6 +19,7 @@ constexpr float kBright = 249.0f;
 struct Sums {
   int pixels = 0;
   int agreeing = 0;
+  int coloured = 0;  // pixels summed up in bgr: every second one, which is enough for a mean
   int bgr[3] = {0, 0, 0};
   std::uint32_t cells = 0;  // a bit for each 2x2 cell, row by row
 };
@@ -36,11 +37,16 @@ Sums sum_up(const WarpedDepth& warped, const cv::Rect& rect, float nearest, floa
     const float* z = warped.metres.ptr<float>(rect.y + v) + rect.x;
     const int* source = warped.source.ptr<int>(rect.y + v) + rect.x;
     for (int u = 0; u < rect.width; ++u) {
+      const int there = static_cast<int>(source[u] >= 0);
+      sums.pixels += there;
+      sums.agreeing +=
+          static_cast<int>(z[u] >= nearest) & static_cast<int>(z[u] <= farthest) & there;
+      sums.cells |= static_cast<std::uint32_t>(there) << (v / 2 * 4 + u / 2);
+    }
+    for (int u = v % 2; u < rect.width; u += 2) {
       if (source[u] < 0) continue;
-      ++sums.pixels;
-      sums.agreeing += static_cast<int>(z[u] >= nearest) & static_cast<int>(z[u] <= farthest);
-      sums.cells |= 1u << (v / 2 * 4 + u / 2);
       const std::uint8_t* colour = colours + 3 * static_cast<std::ptrdiff_t>(source[u]);
+      ++sums.coloured;
       for (int c = 0; c < 3; ++c) sums.bgr[c] += colour[c];
     }
   }
@@ -111,7 +117,8 @@ void Decider::gather(const cv::Mat& a_bgr, const BlockPreview& b) {
     Evidence& evidence = evidence_[static_cast<std::size_t>(block)];
     evidence.coverage = static_cast<float>(bits_of(sums.cells)) / static_cast<float>(cells);
     evidence.agreement = static_cast<float>(sums.agreeing) / pixels;
-    for (int c = 0; c < 3; ++c) evidence.bgr[c] = static_cast<float>(sums.bgr[c]) / pixels;
+    const auto coloured = static_cast<float>(std::max(sums.coloured, 1));
+    for (int c = 0; c < 3; ++c) evidence.bgr[c] = static_cast<float>(sums.bgr[c]) / coloured;
   }
 }
 

@@ -82,7 +82,7 @@ class DecisionOfBothSizes : public testing::TestWithParam<Camera> {
   View b;
   const cv::Rect patch{80, 80, 96, 64};  // whole blocks
   // Strong colours ring into their neighbours when the preview is coded.
-  const cv::Rect around_patch{56, 56, 144, 112};
+  const cv::Rect around_patch{48, 48, 160, 128};
   const int patch_blocks = 12 * 8;
 };
 INSTANTIATE_TEST_SUITE_P(Sizes, DecisionOfBothSizes, testing::Values(kVga, kPartial));

@@ -15,6 +15,12 @@ namespace rprr {
 
 struct ColourGain;
 
+/// The thresholds were set on the synthetic room, poses 1 cm off:
+///   rosrun rprr_sensor synthetic_to_folder FOLDER --frames 16 --seed 3
+///   rosrun rprr_eval rprr_eval decision FOLDER --step 1
+/// Of 5800 blocks whose surface the prediction gets wrong 5365 are sent with depth, and 242 right
+/// ones. --agreement 0.4: 5409 and 409; with --coverage 0.7 and --agreement 0.5: 5705 and 1172.
+/// 121 blocks of the right colour are sent in colour only; with --colour-sigmas 2.5: 959.
 struct DecisionOptions {
   /// A block is covered if this share of its 2x2 cells holds a warped pixel (cells, since a surface
   /// that b sees nearer than a spreads its pixels).
