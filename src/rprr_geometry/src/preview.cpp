@@ -8,6 +8,7 @@
 namespace rprr {
 namespace {
 
+const cv::Vec3b kNoColour(128, 128, 128);
 constexpr int kFewestReadings = 16;    // of the 64 of a block
 constexpr int kFewestSampled = 3;      // of the 16 that the median looks at
 constexpr float kSameSurface = 0.03f;  // relative distance of depths from the block's median
@@ -72,6 +73,7 @@ BlockPreview make_preview(const DepthFrame& depth, const cv::Mat& bgr, double st
   preview.step = static_cast<double>(static_cast<float>(step));
   preview.inverse_depth.create(preview.grid.rows, preview.grid.columns, CV_16UC1);
   preview.bgr.create(preview.grid.rows, preview.grid.columns, CV_8UC3);
+  const bool has_colour = bgr.type() == CV_8UC3 && bgr.size() == depth.counts.size();
   for (int block = 0; block < preview.grid.count(); ++block) {
     const cv::Rect rect = preview.grid.rect(block);
     auto& q = preview.inverse_depth.ptr<std::uint16_t>()[block];
@@ -84,7 +86,7 @@ BlockPreview make_preview(const DepthFrame& depth, const cv::Mat& bgr, double st
         q = static_cast<std::uint16_t>(std::clamp(std::lround(mean / preview.step), 1L, 65535L));
       }
     }
-    preview.bgr.ptr<cv::Vec3b>()[block] = mean_colour(bgr, rect);
+    preview.bgr.ptr<cv::Vec3b>()[block] = has_colour ? mean_colour(bgr, rect) : kNoColour;
   }
   return preview;
 }

@@ -89,7 +89,11 @@ void PreviewPoseEstimator::prepare(const PoseFrame& a) {
   a_ = pyramid(make_view(make_preview(a.depth, a.bgr), a.camera));
   fine_.metres = metres_of(a.depth);
   fine_.metres_camera = a.camera;
-  fine_.luma = smooth_luma(a.bgr, a.camera, fine_.luma_camera);
+  fine_.luma.release();
+  // Without colour the cells' even grey serves: depth alone then has to do, and is not believed.
+  if (a.bgr.type() == CV_8UC3 && a.bgr.size() == a.depth.counts.size()) {
+    fine_.luma = smooth_luma(a.bgr, a.camera, fine_.luma_camera);
+  }
 }
 
 void PreviewPoseEstimator::judge(Candidate& candidate) const {

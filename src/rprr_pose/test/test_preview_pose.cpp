@@ -75,6 +75,14 @@ TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
             PoseStatus::kAccepted);
 }
 
+TEST(PreviewPose, AFrameWithoutColourIsSurvivedAndNotBelieved) {
+  auto colourless = std::make_shared<PoseFrame>(*textured_frame(Pose::Identity(), 1, "a"));
+  colourless->bgr.release();
+  PreviewPoseEstimator estimator({});
+  EXPECT_NE(estimator.estimate(*colourless, sent_preview(*colourless), kTestCamera, {}).status,
+            PoseStatus::kAccepted);
+}
+
 TEST(PreviewPose, TheCovarianceIsOfTheRightSizeAndDirection) {
   const PreviewPose found = estimate(test_motion(0.1, 5.0));
   const Eigen::Matrix<double, 6, 1> sigma = found.covariance.diagonal().cwiseSqrt();

@@ -32,7 +32,8 @@ constexpr double kPreviewStep = 0.004;
 
 /// The preview of a frame. A block's depth stands for the surface that most of its readings belong
 /// to: the mean of 1/z (a plane is linear in it) over the readings near their median, never a mean
-/// across an edge; blocks with few readings have none. bgr: CV_8UC3 of the frame's size.
+/// across an edge; blocks with few readings have none. bgr: CV_8UC3 of the frame's size;
+/// of anything else all colours are grey.
 BlockPreview make_preview(const DepthFrame& depth, const cv::Mat& bgr, double step = kPreviewStep);
 
 /// Wire form, sealed with a CRC-32. Version 1:
