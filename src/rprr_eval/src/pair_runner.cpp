@@ -219,8 +219,8 @@ Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::
   const cv::Mat& truth = frame_b->bgr;
   result.psnr = *psnr(result.rebuilt.bgr, truth);
   result.ssim = ssim(result.rebuilt.bgr, truth);
-  result.psnr_predicted =
-      psnr(result.rebuilt.bgr, truth, result.rebuilt.provenance != static_cast<double>(kReceived));
+  result.psnr_predicted = psnr(result.rebuilt.bgr, truth,
+                               result.rebuilt.provenance < static_cast<double>(kReceivedColour));
   result.independent_psnr = *psnr(decoded->bgr, truth);
   result.independent_ssim = ssim(decoded->bgr, truth);
   result.depth = depth_quality(result.rebuilt.depth, frame_b->depth);

@@ -46,13 +46,13 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
     const cv::Rect rect = grid.rect(block);
     if (mask[block]) {
       received_bgr(rect).copyTo(view.bgr(rect));
-      view.provenance(rect).setTo(kReceived);
+      view.provenance(rect).setTo(depth_mask[block] ? kReceived : kReceivedColour);
     }
     if (depth_mask[block]) received_depth.counts(rect).copyTo(view.depth.counts(rect));
   }
 
   const double pixels = static_cast<double>(size.area());
-  const int received = cv::countNonZero(view.provenance == kReceived);
+  const int received = cv::countNonZero(view.provenance >= kReceivedColour);
   const int known = cv::countNonZero(view.provenance);
   view.share_received = received / pixels;
   view.share_predicted = (known - received) / pixels;

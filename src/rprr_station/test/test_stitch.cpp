@@ -68,7 +68,7 @@ TEST_F(StitchTest, BlocksOfColourOnlyKeepThePredictedDepth) {
   const cv::Rect colour_only = mask.grid().rect(0);
   EXPECT_EQ(cv::norm(view->bgr(colour_only), bgr(colour_only), cv::NORM_INF), 0);
   EXPECT_EQ(cv::countNonZero(view->depth.counts(colour_only) != 6173), 0) << "1.23456 m";
-  EXPECT_EQ(cv::countNonZero(view->provenance(colour_only) != kReceived), 0) << "of the colour";
+  EXPECT_EQ(cv::countNonZero(view->provenance(colour_only) != kReceivedColour), 0);
   const cv::Rect both = mask.grid().rect(mask.grid().count() - 1);
   EXPECT_EQ(cv::norm(view->depth.counts(both), depth.counts(both), cv::NORM_INF), 0);
 }
