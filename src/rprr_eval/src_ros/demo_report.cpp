@@ -140,13 +140,18 @@ class DemoReport {
     subscribers_.push_back(nh_.subscribe<Message>(topic, 50, function));
   }
 
+  // Topics overtake each other: whichever first speaks of an exchange starts it here.
+  void begin(std::uint32_t exchange) {
+    if (exchange == 0) return;
+    const std::size_t before = log_.started();
+    log_.start(exchange);
+    if (log_.started() != before) std::cout << "exchange " << log_.started() << "\n" << std::flush;
+  }
+
   void on_reference_event(const rprr_msgs::ExchangeEvent& event) {
     if (event.exchange == 0 || event.peer != b_) return;
+    begin(event.exchange);
     if (event.action == rprr_msgs::ExchangeEvent::SEND_WHOLE) {
-      const std::size_t before = log_.started();
-      log_.start(event.exchange);
-      if (log_.started() != before)
-        std::cout << "exchange " << log_.started() << "\n" << std::flush;
       stamp_a_[event.exchange] = event.header.stamp;
     }
     if (LoggedExchange* record = log_.find(event.exchange)) {
@@ -155,12 +160,14 @@ class DemoReport {
   }
 
   void on_dependent_event(const rprr_msgs::ExchangeEvent& event) {
+    begin(event.exchange);
     if (LoggedExchange* record = log_.find(event.exchange)) {
       record->ms_pose_dependent = event.ms_pose;
     }
   }
 
   void on_pose(const rprr_msgs::RelativePose& pose) {
+    if (pose.dependent == b_) begin(pose.exchange);
     LoggedExchange* record = log_.find(pose.exchange);
     if (!record || pose.status != rprr_msgs::RelativePose::ACCEPTED) return;
     record->accepted = true;

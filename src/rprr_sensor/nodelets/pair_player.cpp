@@ -17,6 +17,7 @@
 namespace rprr {
 namespace {
 
+constexpr double kGroundTruthPatience = 0.5;  // s
 constexpr int kQueue = 4;
 constexpr auto kPoll = std::chrono::milliseconds(5);
 
@@ -212,6 +213,13 @@ void PairPlayer::await_subscribers() {
                                      std::to_string(settings_.wait_for_subscribers) +
                                      " subscribers on the robots' camera topics after "
                                      "~wait_timeout; playing nevertheless");
+  }
+  // Nobody need listen to the ground truth, but who does connects about now and wants the first
+  // too.
+  if (settings_.wait_for_subscribers > 0) {
+    wait_until(
+        [this] { return a_.pose.getNumSubscribers() > 0 && b_.pose.getNumSubscribers() > 0; },
+        kGroundTruthPatience);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core.hpp>
@@ -107,6 +108,10 @@ bool serve_one(rprr::ColourDecoder& decoder, rlim_t seconds) {
 
 int main(int argc, char** argv) {
   if (argc != 3) return EXIT_FAILURE;
+  // Signals to the parent's process group are the parent's affair: this process ends when its
+  // socket closes, so that a shutdown does not look like a hostile payload.
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
   try {
     close_inherited();
     cv::setNumThreads(1);
