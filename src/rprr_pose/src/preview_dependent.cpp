@@ -7,6 +7,14 @@
 namespace rprr {
 namespace {
 
+// The exchange under way.
+struct Exchange {
+  std::uint32_t number = 0;
+  PoseFramePtr frame;
+  Stamp deadline = 0;
+  std::uint32_t bytes = 0;
+};
+
 class PreviewDependent final : public ExchangeRole {
  public:
   explicit PreviewDependent(PreviewOptions options)
@@ -64,13 +72,6 @@ class PreviewDependent final : public ExchangeRole {
   }
 
  private:
-  struct Exchange {
-    std::uint32_t number = 0;
-    PoseFramePtr frame;
-    Stamp deadline = 0;
-    std::uint32_t bytes = 0;
-  };
-
   PreviewContent content_of(const PoseFrame& frame) const {
     PreviewContent content;
     content.camera_hash = camera_hash(frame.camera);

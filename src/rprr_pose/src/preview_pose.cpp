@@ -224,9 +224,8 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
              out.evidence < limits.min_evidence) {
     out.status = PoseStatus::kInconsistent;
   } else if (worst_sigma(out.covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
-             worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation) {
-    out.status = PoseStatus::kDegenerate;
-  } else if (out.margin < limits.min_margin) {
+             worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation ||
+             out.margin < limits.min_margin) {
     out.status = PoseStatus::kDegenerate;
   } else {
     out.status = PoseStatus::kAccepted;
@@ -243,7 +242,7 @@ PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPrevie
     candidate.motion = m_ab.inverse();
     if (!refine(candidate)) continue;
     judge(candidate);
-    const PreviewPose pose = finish(candidate, 0.0);
+    PreviewPose pose = finish(candidate, 0.0);
     if (pose.status == PoseStatus::kAccepted) return pose;
   }
   b_ = pyramid(std::move(b_[0]));

@@ -107,9 +107,19 @@ std::vector<Judged> best_rotations(const PreviewView& moving, const PreviewView&
                                    const StartRange& range) {
   const Cells cells = cells_of(moving);
   std::vector<Judged> all;
-  for (double yaw = -range.yaw; yaw <= range.yaw + 1e-9; yaw += range.step) {
-    for (double pitch = -range.pitch; pitch <= range.pitch + 1e-9; pitch += range.step) {
-      for (double roll = -range.roll; roll <= range.roll + 1e-9; roll += 2.0 * range.step) {
+  const auto steps_of = [](double reach, double step) {
+    return static_cast<int>(reach / step + 1e-9);
+  };
+  const double roll_step = 2.0 * range.step;
+  const int yaws = steps_of(range.yaw, range.step);
+  const int pitches = steps_of(range.pitch, range.step);
+  const int rolls = steps_of(range.roll, roll_step);
+  for (int i = -yaws; i <= yaws; ++i) {
+    for (int j = -pitches; j <= pitches; ++j) {
+      for (int k = -rolls; k <= rolls; ++k) {
+        const double yaw = i * range.step;
+        const double pitch = j * range.step;
+        const double roll = k * roll_step;
         Judged one;
         one.rotation = (Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
                         Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *

@@ -12,6 +12,17 @@
 namespace rprr {
 namespace {
 
+// The exchange under way.
+struct Exchange {
+  std::uint32_t number = 0;
+  PoseFramePtr frame;
+  Stamp deadline = 0;
+  std::uint8_t iteration = 0;
+  std::optional<SampledSurface> a_points;  // of this iteration (resample) or of the exchange
+  std::optional<Camera> a_camera;
+  std::uint32_t bytes = 0;
+};
+
 class SamplesDependent final : public ExchangeRole {
  public:
   explicit SamplesDependent(SamplesOptions options)
@@ -50,16 +61,6 @@ class SamplesDependent final : public ExchangeRole {
   }
 
  private:
-  struct Exchange {
-    std::uint32_t number = 0;
-    PoseFramePtr frame;
-    Stamp deadline = 0;
-    std::uint8_t iteration = 0;
-    std::optional<SampledSurface> a_points;  // of this iteration (resample) or of the exchange
-    std::optional<Camera> a_camera;
-    std::uint32_t bytes = 0;
-  };
-
   void on_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
     if (exchange_ && message.exchange == exchange_->number)
       return on_more_samples(message, now, out);

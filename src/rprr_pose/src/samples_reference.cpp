@@ -15,6 +15,22 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 30;
 
+// The exchange under way.
+struct Exchange {
+  std::uint32_t number = 0;
+  PoseFramePtr frame;
+  Stamp deadline = 0;
+  std::uint8_t iteration = 0;
+  Pose motion = Pose::Identity();  // M_ab, as it crossed the wire
+  double c = 0.0;
+  std::optional<SampledSurface> b_points;  // of this iteration (resample) or of the exchange
+  std::optional<NormalEquations> b_half;   // of this iteration
+  std::optional<Camera> b_camera;
+  Stamp b_stamp = 0;
+  NormalEquations last_b, last_a;  // both halves of the last iteration
+  std::size_t bytes = 0;
+};
+
 class SamplesReference final : public ExchangeRole {
  public:
   explicit SamplesReference(SamplesOptions options)
@@ -39,21 +55,6 @@ class SamplesReference final : public ExchangeRole {
   }
 
  private:
-  struct Exchange {
-    std::uint32_t number = 0;
-    PoseFramePtr frame;
-    Stamp deadline = 0;
-    std::uint8_t iteration = 0;
-    Pose motion = Pose::Identity();  // M_ab, as it crossed the wire
-    double c = 0.0;
-    std::optional<SampledSurface> b_points;  // of this iteration (resample) or of the exchange
-    std::optional<NormalEquations> b_half;   // of this iteration
-    std::optional<Camera> b_camera;
-    Stamp b_stamp = 0;
-    NormalEquations last_b, last_a;  // both halves of the last iteration
-    std::size_t bytes = 0;
-  };
-
   void start(const PoseFramePtr& frame, Stamp now, RoleOutput& out) {
     started_once_ = true;
     last_start_ = now;

@@ -178,14 +178,14 @@ TEST_F(PairPlayerTest, FolderWithStartStepAndCount) {
   const Player player("_source:=" + folder(0.001) +
                       " _b:=second _start:=1 _step:=2 _count:=3 _rate:=20");
   ASSERT_TRUE(spin_until([&] { return done_ == "yes" && b_.frames() == 3 && b_.pose.size() == 3; }))
-      << b_.frames() << " frames, done: " << done_;
+      << b_.frames() << " frames, " << b_.pose.size() << " poses, done: " << done_;
   check(1, 2, 3, 0.001);
 }
 
 TEST_F(PairPlayerTest, BagOfTheBenchmarkIsCleanedAndExact) {
   const Player player("_source:=" + tum_bag() + " _b:=second _rate:=20");
   ASSERT_TRUE(spin_until([&] { return done_ == "yes" && b_.frames() == 5 && b_.pose.size() == 5; }))
-      << b_.frames() << " frames, done: " << done_;
+      << b_.frames() << " frames, " << b_.pose.size() << " poses, done: " << done_;
   check(0, 1, 5, 0.0002);
 }
 
@@ -233,7 +233,7 @@ TEST_F(PairPlayerTest, FaultyEntriesAreLeftOutAndTheRestGoesOn) {
   std::ofstream(path + "/depth/12.000000000.png") << "broken";
   const Player player("_source:=" + path + " _b:=second _rate:=50");
   EXPECT_TRUE(spin_until([&] { return done_ == "no" && b_.frames() == 3; }))
-      << b_.frames() << " frames, done: " << done_;
+      << b_.frames() << " frames, " << b_.pose.size() << " poses, done: " << done_;
 }
 
 TEST_F(PairPlayerTest, NoSuchSourceIsReported) {
