@@ -10,8 +10,9 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kCoarsest = 16;     // cells in a row of the coarsest view: 80, 40 and 20 for VGA
-constexpr std::size_t kSlid = 6;  // candidates that are also tried some way along
+constexpr int kCoarsest = 16;         // cells in a row of the coarsest view: 80, 40 and 20 for VGA
+constexpr std::size_t kSlid = 6;      // candidates that are also tried some way along
+constexpr double kSharedPower = 0.4;  // how much more of a view that is shared counts
 constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
 constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
@@ -100,32 +101,34 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
   candidate.b_in_a = agreement(b_[0], a_[0], candidate.motion);
   candidate.a_in_b = agreement(a_[0], b_[0], candidate.motion.inverse());
   const auto one_way = [](const Agreement& way) {
-    return share(way.consistent - 2.0 * way.violating - 0.5 * way.hidden, way.valid);
+    const double agreement =
+        share(way.consistent - 2.0 * way.violating - 0.5 * way.hidden, way.in_view);
+    return std::max(0.0, agreement) * std::pow(share(way.in_view, way.valid), kSharedPower);
   };
   const double geometry = 0.5 * (one_way(candidate.b_in_a) + one_way(candidate.a_in_b));
   const double colour = 0.5 * (candidate.b_in_a.correlation + candidate.b_in_a.fine_correlation);
-  candidate.score = std::max(0.0, geometry) * std::max(0.0, colour);
+  candidate.score = geometry * std::max(0.0, colour);
 }
 
 bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   AlignmentOptions options;
   options.iterations = 10;
-  options.stride = 2;
   options.gate = 0.12f;
   options.last_gate = 0.05f;
   FixedView fixed = fine_;
   fixed.cells = &a_[0];
-  return align(b_[0], fixed, options, candidate.motion, candidate.sums);
+  return align(points_of(b_[0], 2), fixed, options, candidate.motion, candidate.sums);
 }
 
 // Aligns every candidate a little further, then keeps the best distinct ones.
-void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_t level,
+void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_t level, int stride,
                                   const AlignmentOptions& options, std::size_t keep, double metres,
                                   double degrees) const {
   FixedView fixed;
   fixed.cells = &a_[level];
+  const MovingPoints points = points_of(b_[level], stride);
   for (Candidate& candidate : candidates) {
-    const bool found = align(b_[level], fixed, options, candidate.motion, candidate.sums);
+    const bool found = align(points, fixed, options, candidate.motion, candidate.sums);
     candidate.score = found ? candidate.sums.score() : 0.0;
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
@@ -170,11 +173,11 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() cons
     candidates.emplace_back();
     candidates.back().motion = start;
   }
-  narrow(candidates, middle, {4, 4, 1.0f, 0.5f, 16.0f}, 40, 0.04, 1.5);
-  narrow(candidates, middle, {5, 2, 0.5f, 0.2f, 14.0f}, 14, 0.05, 2.0);
+  narrow(candidates, middle, 4, {4, 1.0f, 0.5f}, 40, 0.04, 1.5);
+  narrow(candidates, middle, 2, {5, 0.5f, 0.2f}, 14, 0.05, 2.0);
   slide(candidates);
-  narrow(candidates, middle, {4, 3, 0.25f, 0.2f, 14.0f}, 12, 0.05, 2.0);
-  narrow(candidates, 0, {4, 3, 0.25f, 0.12f, 12.0f}, 6, 0.05, 2.0);
+  narrow(candidates, middle, 3, {4, 0.25f, 0.2f}, 12, 0.05, 2.0);
+  narrow(candidates, 0, 3, {4, 0.25f, 0.12f}, 6, 0.05, 2.0);
   for (Candidate& candidate : candidates) judge(candidate);
   std::stable_sort(candidates.begin(), candidates.end(), better);
   if (candidates.size() > kRefined) candidates.resize(kRefined);

@@ -2,110 +2,77 @@
 #include "rprr_pose/preview_starts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
-#include <utility>
+
+#include "coarse_match.hpp"
 
 namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-// Turns about the middle of the scene, yaw and pitch, degrees.
-constexpr std::pair<double, double> kTurns[] = {{0, 0},  {-14, 0}, {14, 0}, {-32, 0},
-                                                {32, 0}, {0, 12},  {0, -12}};
-constexpr float kLeastOverlap = 0.12f;  // of the moving view's cells
+constexpr float kLeastShared = 0.12f;  // of the moving view's cells
+// Steps of the fixed camera along its axis, in units of the typical depth.
+constexpr std::array<float, 5> kForward = {0.0f, -0.3f, 0.3f, -0.55f, 0.6f};
+// Turns about the middle of the scene, degrees.
+constexpr std::array<double, 11> kYawTurns = {0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75};
+constexpr std::array<double, 5> kPitchTurns = {0, -14, 14, -28, 28};
+constexpr std::array<float, 3> kNearer = {0.0f, -0.2f, 0.2f};
+// After a rotation alone parallax moves depths; with a motion they should agree better.
+constexpr float kRotationTolerance = 0.5f;
+constexpr float kMotionTolerance = 0.3f;
+// Steps of the climb that follows: first and later ones, in units of these.
+constexpr std::array<double, 4> kClimb = {1.0, 1.0, 0.6, 0.36};
+constexpr double kClimbDegrees = 8.0;
+constexpr double kClimbMetres = 0.15;  // per metre of typical depth
 
 struct Judged {
-  Eigen::Matrix3d rotation;
-  float forward = 0.0f;  // metres along the fixed optical axis
+  Pose motion = Pose::Identity();
   float score = 0.0f;
 };
 
-// The moving view's cells as arrays that one rotation runs through.
-struct Cells {
-  std::vector<Eigen::Vector3f> rays;
-  std::vector<float> q, luma, blue, red;
-  float typical_q = 0.5f;  // median, for cells without depth
-};
-
-Cells cells_of(const PreviewView& view) {
-  Cells cells;
-  for (int r = 0; r < view.height(); ++r) {
-    for (int c = 0; c < view.width(); ++c) {
-      const auto i = static_cast<std::size_t>(r * view.width() + c);
-      cells.rays.push_back(view.camera.unproject(c, r, 1.0).cast<float>());
-      cells.q.push_back(view.z[i] > 0.0f ? 1.0f / view.z[i] : 0.0f);
-      cells.luma.push_back(view.luma[i]);
-      cells.blue.push_back(view.blue[i]);
-      cells.red.push_back(view.red[i]);
-    }
-  }
-  std::vector<float> known;
-  std::copy_if(cells.q.begin(), cells.q.end(), std::back_inserter(known),
-               [](float q) { return q > 0.0f; });
-  if (!known.empty()) {
-    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-    std::nth_element(known.begin(), middle, known.end());
-    cells.typical_q = *middle;
-  }
-  return cells;
+bool better(const Judged& left, const Judged& right) {
+  return left.score > right.score;
 }
 
-float correlation(float n, float a, float b, float aa, float bb, float ab) {
-  const float va = aa - a * a / n;
-  const float vb = bb - b * b / n;
-  // A little constant variance, so that flat patches do not correlate by chance.
-  const float floor = 20.0f * n;
-  return (ab - a * b / n) / std::sqrt((va + floor) * (vb + floor));
+float score_of(const CoarseScore& found) {
+  if (found.shared < kLeastShared) return 0.0f;
+  return std::max(0.0f, 0.5f * found.colour + found.depth) * std::pow(found.shared, 0.3f);
 }
 
-float judge(const Cells& moving, const PreviewView& fixed, const Eigen::Matrix3f& rotation,
-            float forward) {
-  const auto fx = static_cast<float>(fixed.camera.fx), cx = static_cast<float>(fixed.camera.cx);
-  const auto fy = static_cast<float>(fixed.camera.fy), cy = static_cast<float>(fixed.camera.cy);
-  float n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
-  float ca = 0, cb = 0, caa = 0, cbb = 0, cab = 0;
-  float da = 0, db = 0, daa = 0, dbb = 0, dab = 0;
-  float depths = 0, agree = 0;
-  for (std::size_t i = 0; i < moving.rays.size(); ++i) {
-    Eigen::Vector3f ray = rotation * moving.rays[i];
-    ray.z() += forward * (moving.q[i] > 0.0f ? moving.q[i] : moving.typical_q);
-    if (ray.z() < 0.2f) continue;
-    const float inverse = 1.0f / ray.z();
-    const float u = fx * ray.x() * inverse + cx + 0.5f;
-    const float v = fy * ray.y() * inverse + cy + 0.5f;
-    if (!(u >= 0.0f && v >= 0.0f)) continue;
-    const auto c = static_cast<int>(u);
-    const auto r = static_cast<int>(v);
-    if (c >= fixed.width() || r >= fixed.height()) continue;
-    const auto j = static_cast<std::size_t>(r * fixed.width() + c);
-    ++n;
-    const float l = moving.luma[i], m = fixed.luma[j];
-    a += l, b += m, aa += l * l, bb += m * m, ab += l * m;
-    const float p = moving.blue[i], q = fixed.blue[j];
-    ca += p, cb += q, caa += p * p, cbb += q * q, cab += p * q;
-    const float s = moving.red[i], t = fixed.red[j];
-    da += s, db += t, daa += s * s, dbb += t * t, dab += s * t;
-    if (moving.q[i] > 0.0f && fixed.z[j] > 0.0f) {
-      // Depth after the rotation; what translation changes is left open by the tolerance.
-      const float ratio = moving.q[i] * inverse * fixed.z[j];
-      ++depths;
-      const float off = std::abs(ratio - 1.0f);
-      agree += off < 0.5f ? 1.0f - 2.0f * off : 0.0f;
-    }
+Eigen::Matrix3d turn_of(double yaw, double pitch, double roll) {
+  return (Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *
+          Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
+void judge(const CoarseMatch& match, float tolerance, Judged& one) {
+  one.score = score_of(match.judge(one.motion.linear().cast<float>(),
+                                   one.motion.translation().cast<float>(), tolerance));
+}
+
+// The best that are far enough from all better ones.
+std::vector<Judged> distinct(std::vector<Judged> all, std::size_t most, double metres,
+                             double degrees) {
+  std::stable_sort(all.begin(), all.end(), better);
+  const double least_cosine = std::cos(degrees * kDegree);
+  std::vector<Judged> kept;
+  for (const Judged& one : all) {
+    if (kept.size() >= most || one.score <= 0.0f) break;
+    const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Judged& other) {
+      const Eigen::Matrix3d& l = one.motion.linear();
+      const Eigen::Matrix3d& r = other.motion.linear();
+      return (one.motion.translation() - other.motion.translation()).norm() > metres ||
+             0.5 * (l.cwiseProduct(r).sum() - 1.0) < least_cosine;
+    });
+    if (is_new) kept.push_back(one);
   }
-  const auto total = static_cast<float>(moving.rays.size());
-  if (n < kLeastOverlap * total) return 0.0f;
-  const float colour = correlation(n, a, b, aa, bb, ab) +
-                       0.5f * correlation(n, ca, cb, caa, cbb, cab) +
-                       0.5f * correlation(n, da, db, daa, dbb, dab);
-  const float depth = depths > 0.0f ? agree / depths : 0.3f;
-  return std::max(0.0f, 0.5f * colour + depth) * std::pow(n / total, 0.3f);
+  return kept;
 }
 
-std::vector<Judged> best_rotations(const PreviewView& moving, const PreviewView& fixed,
-                                   const StartRange& range) {
-  const Cells cells = cells_of(moving);
+// Rotations with a step forward or back, as if all else were far away.
+std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& range) {
   std::vector<Judged> all;
   const auto steps_of = [](double reach, double step) {
     return static_cast<int>(reach / step + 1e-9);
@@ -117,46 +84,28 @@ std::vector<Judged> best_rotations(const PreviewView& moving, const PreviewView&
   for (int i = -yaws; i <= yaws; ++i) {
     for (int j = -pitches; j <= pitches; ++j) {
       for (int k = -rolls; k <= rolls; ++k) {
-        const double yaw = i * range.step;
-        const double pitch = j * range.step;
-        const double roll = k * roll_step;
         Judged one;
-        one.rotation = (Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
-                        Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *
-                        Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitZ()))
-                           .toRotationMatrix();
-        for (const float steps : {0.0f, -0.4f, 0.4f}) {
-          one.forward = steps / cells.typical_q;
-          one.score = judge(cells, fixed, one.rotation.cast<float>(), one.forward);
+        one.motion.linear() = turn_of(i * range.step, j * range.step, k * roll_step);
+        for (const float forward : kForward) {
+          one.motion.translation().z() = static_cast<double>(forward * match.typical_depth());
+          judge(match, kRotationTolerance, one);
           all.push_back(one);
         }
       }
     }
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Judged& l, const Judged& r) { return l.score > r.score; });
-  std::vector<Judged> kept;
-  for (const Judged& candidate : all) {
-    if (kept.size() >= range.rotations || candidate.score <= 0.0f) break;
-    const bool distinct = std::all_of(kept.begin(), kept.end(), [&](const Judged& other) {
-      return rotation_angle(candidate.rotation * other.rotation.transpose()) >
-                 1.6 * range.step * kDegree ||
-             candidate.forward != other.forward;
-    });
-    if (distinct) kept.push_back(candidate);
-  }
-  return kept;
+  const double apart = 0.2 * static_cast<double>(match.typical_depth());
+  return distinct(std::move(all), range.rotations, apart, 1.6 * range.step);
 }
 
-// Middle of what the moving view sees, in the fixed view's frame after the rotation: the mean point
+// Middle of what the moving view sees, in the fixed view's frame after the motion: the mean point
 // of the cells that land inside the fixed image.
-Eigen::Vector3d middle_of(const PreviewView& moving, const PreviewView& fixed,
-                          const Eigen::Matrix3d& rotation) {
+Eigen::Vector3d middle_of(const PreviewView& moving, const PreviewView& fixed, const Pose& motion) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int n = 0;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     if (moving.z[i] == 0.0f) continue;
-    const Eigen::Vector3d p = rotation * Eigen::Vector3d(moving.x[i], moving.y[i], moving.z[i]);
+    const Eigen::Vector3d p = motion * Eigen::Vector3d(moving.x[i], moving.y[i], moving.z[i]);
     if (p.z() < 0.1) continue;
     const Eigen::Vector2d pixel = fixed.camera.project(p);
     if (!fixed.camera.contains(pixel.x(), pixel.y())) continue;
@@ -166,22 +115,75 @@ Eigen::Vector3d middle_of(const PreviewView& moving, const PreviewView& fixed,
   return n > 0 ? Eigen::Vector3d(sum / n) : Eigen::Vector3d(0, 0, 2);
 }
 
+// The motion after a step along one of its degrees of freedom: translation, or a turn about the
+// middle of what is seen, so that the view stays on it.
+Pose stepped(const Pose& motion, int axis, double metres, double radians, double middle_depth) {
+  Pose out = motion;
+  if (axis < 3) {
+    out.translation()[axis] += metres;
+    return out;
+  }
+  const Eigen::Vector3d middle = motion * Eigen::Vector3d(0, 0, middle_depth);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(radians, Eigen::Vector3d::Unit(axis - 3)).toRotationMatrix();
+  out.linear() = turn * motion.linear();
+  out.translation() = turn * (motion.translation() - middle) + middle;
+  return out;
+}
+
+// Improves a motion step by step: the score knows free space and colour from further away than an
+// alignment's gradient does.
+void climb(const CoarseMatch& match, Judged& best) {
+  const auto depth = static_cast<double>(match.typical_depth());
+  for (const double size : kClimb) {
+    for (int axis = 0; axis < 6; ++axis) {
+      for (const double signed_size : {size, -size}) {
+        Judged other;
+        other.motion = stepped(best.motion, axis, kClimbMetres * depth * signed_size,
+                               kClimbDegrees * kDegree * signed_size, depth);
+        judge(match, kMotionTolerance, other);
+        if (other.score <= best.score) continue;
+        best = other;
+        break;
+      }
+    }
+  }
+}
+
+std::vector<Eigen::Matrix3d> all_turns() {
+  std::vector<Eigen::Matrix3d> turns;
+  for (const double yaw : kYawTurns) {
+    for (const double pitch : kPitchTurns) turns.push_back(turn_of(yaw, pitch, 0.0));
+  }
+  return turns;
+}
+
 }  // namespace
 
 std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewView& fixed_coarse,
                               const StartRange& range) {
-  std::vector<Pose> starts;
-  for (const Judged& judged : best_rotations(moving_coarse, fixed_coarse, range)) {
-    const Eigen::Vector3d middle = middle_of(moving_coarse, fixed_coarse, judged.rotation);
-    for (const auto& [yaw, pitch] : kTurns) {
-      const Eigen::Matrix3d turn = (Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()))
-                                       .toRotationMatrix();
-      Pose start = Pose::Identity();
-      start.linear() = turn * judged.rotation;
-      start.translation() = middle - turn * middle + Eigen::Vector3d(0, 0, judged.forward);
-      starts.push_back(start);
+  const CoarseMatch match(moving_coarse, fixed_coarse);
+  std::vector<Judged> turned;
+  const std::vector<Eigen::Matrix3d> turns = all_turns();
+  for (const Judged& rotation : best_rotations(match, range)) {
+    const Eigen::Vector3d middle = middle_of(moving_coarse, fixed_coarse, rotation.motion);
+    for (const Eigen::Matrix3d& turn : turns) {
+      for (const float nearer : kNearer) {
+        Judged one;
+        one.motion.linear() = turn * rotation.motion.linear();
+        one.motion.translation() =
+            turn * (rotation.motion.translation() - middle) + middle * (1.0 + nearer);
+        judge(match, kMotionTolerance, one);
+        turned.push_back(one);
+      }
     }
+  }
+  const double apart = 0.08 * static_cast<double>(match.typical_depth());
+  std::vector<Judged> best = distinct(std::move(turned), range.starts, apart, 6.0);
+  for (Judged& one : best) climb(match, one);
+  std::vector<Pose> starts;
+  for (const Judged& one : distinct(std::move(best), range.starts, 0.5 * apart, 3.0)) {
+    starts.push_back(one.motion);
   }
   return starts;
 }

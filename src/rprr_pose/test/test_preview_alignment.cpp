@@ -49,7 +49,7 @@ TEST(PreviewAlignment, StepsTowardsTheTruth) {
   options.iterations = 15;
   Pose b_to_a = Pose::Identity();
   AlignmentSums sums;
-  ASSERT_TRUE(align(b, fixed, options, b_to_a, sums));
+  ASSERT_TRUE(align(points_of(b, 1), fixed, options, b_to_a, sums));
   EXPECT_LT(translation_error(b_to_a.inverse(), truth), 0.03);
   EXPECT_GT(sums.correlation, 0.9);
   EXPECT_GT(sums.score(), 0.5);
@@ -61,7 +61,39 @@ TEST(PreviewAlignment, NothingInCommonIsLost) {
   fixed.cells = &a;
   Pose away = test_motion(0.0, 170.0);
   AlignmentSums sums;
-  EXPECT_FALSE(align(a, fixed, {}, away, sums));
+  EXPECT_FALSE(align(points_of(a, 1), fixed, {}, away, sums));
+}
+
+TEST(PreviewAlignment, LumaResidualsSetTheirOwnSpread) {
+  const PreviewView a = view_of(Pose::Identity());
+  FixedView fixed;
+  fixed.cells = &a;
+  const auto sigma_of = [&](double exposure, float noise) {
+    PreviewView b = view_of(Pose::Identity(), exposure);
+    for (std::size_t i = 0; i < b.size(); ++i) b.luma[i] += (i % 2 == 0 ? noise : -noise);
+    Pose motion = Pose::Identity();
+    AlignmentSums sums;
+    AlignmentOptions options;
+    EXPECT_TRUE(align(points_of(b, 1), fixed, options, motion, sums));
+    return sums.luma_sigma;
+  };
+  EXPECT_DOUBLE_EQ(sigma_of(0.9, 0.0f), 5.0) << "never below its floor";
+  EXPECT_GT(sigma_of(0.9, 12.0f), 10.0);
+  EXPECT_DOUBLE_EQ(sigma_of(0.9, 60.0f), 20.0) << "never above its ceiling";
+}
+
+TEST(MovingPoints, AreEveryStridethCellWithDepthInAStaggeredPattern) {
+  PreviewView view = view_of(Pose::Identity());
+  std::fill(view.z.begin(), view.z.end(), 1.0f);
+  EXPECT_EQ(points_of(view, 1).size(), view.size());
+  for (const int stride : {2, 3, 4}) {
+    const MovingPoints points = points_of(view, stride);
+    EXPECT_NEAR(static_cast<double>(points.size()), static_cast<double>(view.size()) / stride,
+                30.0);
+    EXPECT_EQ(points.luma.size(), points.size());
+  }
+  view.z.assign(view.size(), 0.0f);
+  EXPECT_EQ(points_of(view, 2).size(), 0u);
 }
 
 TEST(Agreement, FallsWithTheError) {

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "rprr_geometry/se3.hpp"
 #include "rprr_pose/preview_view.hpp"
 
 namespace rprr {
+
+/// The points of a view that take part in an alignment: those with depth, every stride-th cell in a
+/// staggered pattern. One entry a point.
+struct MovingPoints {
+  std::vector<float> x, y, z;   // metres, optical frame of the moving view
+  std::vector<float> variance;  // of z, metres^2
+  std::vector<float> luma;
+
+  std::size_t size() const { return z.size(); }
+};
+MovingPoints points_of(const PreviewView& view, int stride);
 
 /// What the moving view's points are aligned to: cells of the fixed view, with, where it is known,
 /// the fixed camera's own depth and luma at a finer grain.
@@ -20,10 +33,12 @@ struct FixedView {
 
 struct AlignmentOptions {
   int iterations = 8;
-  int stride = 1;           // every how many-th cell of the moving view takes part
   float gate = 0.3f;        // metres: correspondences further apart do not count, in the first step
   float last_gate = 0.08f;  // in the last one
-  float luma_sigma = 12.0f;  // grey levels: noise, coding and what affine exposure does not explain
+  // Luma residuals, grey levels. Their spread is taken from the residuals themselves, within these
+  // bounds: coding and noise below, views that are not aligned yet above.
+  float least_luma_sigma = 5.0f;
+  float most_luma_sigma = 20.0f;
 };
 
 /// Sums of the last iteration at its pose.
@@ -32,26 +47,24 @@ struct AlignmentSums {
   Matrix6 geometric = Matrix6::Zero();    // the part of it that depth alone gives
   double chi2_geometry = 0.0;             // sum of squared residuals over their variance
   double chi2_luma = 0.0;
-  int geometry = 0;  // residuals of each kind
+  double luma_sigma = 0.0;  // grey levels, what chi2_luma is in units of
+  int geometry = 0;         // residuals of each kind
   int luma = 0;
-  // Of the cells that took part: how many had depth, landed within the gate, clearly before (in
-  // seen free space) or behind the fixed surface, and how their luma correlates.
-  int cells = 0, close = 0, before = 0, behind = 0;
+  // Of the points that took part: how many landed within the gate, clearly before (in seen free
+  // space) or behind the fixed surface, and how their luma correlates.
+  int points = 0, close = 0, before = 0, behind = 0;
   double correlation = 0.0;
 
-  /// A cheap judgement while there are many candidates, at most 1.
-  double score() const {
-    if (cells == 0) return 0.0;
-    const double agreement = (close - 2.0 * before - 0.5 * behind) / cells;
-    return agreement > 0.0 && correlation > 0.0 ? agreement * correlation : 0.0;
-  }
+  /// A cheap judgement while there are many candidates, at most 1: how well the views agree where
+  /// they meet, and a little how much of them meets.
+  double score() const;
 };
 
 /// Gauss-Newton on point-to-plane distances (fixed normals) and luma differences (after an affine
 /// exposure change that is estimated along), projective correspondences, robust weights. motion
 /// maps points of the moving view into the fixed one and is improved in place. False if it was
 /// lost.
-bool align(const PreviewView& moving, const FixedView& fixed, const AlignmentOptions& options,
+bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOptions& options,
            Pose& motion, AlignmentSums& sums);
 
 }  // namespace rprr

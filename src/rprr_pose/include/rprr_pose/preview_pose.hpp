@@ -72,7 +72,7 @@ class PreviewPoseEstimator {
   }
 
   void prepare(const PoseFrame& a);
-  void narrow(std::vector<Candidate>& candidates, std::size_t level,
+  void narrow(std::vector<Candidate>& candidates, std::size_t level, int stride,
               const AlignmentOptions& options, std::size_t keep, double metres,
               double degrees) const;
   void judge(Candidate& candidate) const;

@@ -8,20 +8,21 @@
 
 namespace rprr {
 
-/// How far a search for starting rotations goes, degrees either way.
+/// How far a search for starting motions goes, degrees either way.
 struct StartRange {
   double yaw = 72.0;
   double pitch = 36.0;
   double roll = 24.0;
-  double step = 6.0;
-  std::size_t rotations = 14;  // distinct ones kept
+  double step = 8.0;
+  std::size_t rotations = 24;  // distinct ones kept of the first stage
+  std::size_t starts = 60;     // motions kept of the second
 };
 
-/// Motions from the moving to the fixed view worth trying. Every rotation of a grid is judged on
-/// very coarse views by how colours correlate and depths agree where the views then overlap; from
-/// the best distinct ones come starts that map the middle of the scene to the same place but turn
-/// about it by different amounts, since a shift of the image may be a turn of the camera or a step
-/// aside. Best rotation first.
+/// Motions from the moving to the fixed view worth trying, the most promising first. Every rotation
+/// of a grid, with steps forward and back, is judged on very coarse views by how colours correlate
+/// and depths agree where the views then overlap. The best distinct ones are then turned about the
+/// middle of the scene, since a shift of the image may be a turn of the camera or a step aside, and
+/// the best of those are improved step by step under the same judgement.
 std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewView& fixed_coarse,
                               const StartRange& range);
 

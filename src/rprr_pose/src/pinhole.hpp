@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "rprr_geometry/camera.hpp"
+
+namespace rprr {
+
+/// A camera in float32, for inner loops.
+struct Pinhole {
+  float fx = 0, fy = 0, cx = 0, cy = 0;
+  int width = 0, height = 0;
+
+  Pinhole() = default;
+  explicit Pinhole(const Camera& camera)
+      : fx(static_cast<float>(camera.fx)),
+        fy(static_cast<float>(camera.fy)),
+        cx(static_cast<float>(camera.cx)),
+        cy(static_cast<float>(camera.cy)),
+        width(camera.width),
+        height(camera.height) {}
+
+  /// Index of the pixel nearest to pixel coordinates (u, v), or -1 outside.
+  int index(float u, float v) const {
+    u += 0.5f;
+    v += 0.5f;
+    if (!(u >= 0.0f && v >= 0.0f)) return -1;
+    const auto c = static_cast<int>(u);
+    const auto r = static_cast<int>(v);
+    return c < width && r < height ? r * width + c : -1;
+  }
+  /// Of the pixel that the ray (x, y, 1) meets.
+  int index_of_ray(float x, float y) const { return index(fx * x + cx, fy * y + cy); }
+};
+
+}  // namespace rprr
