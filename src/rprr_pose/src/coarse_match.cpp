@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse_match.hpp"
+#include "rprr_pose/coarse_match.hpp"
 
 #include <algorithm>
 #include <array>
@@ -96,6 +96,23 @@ std::size_t CoarseMatch::land(const Eigen::Matrix3f& rotation, const Eigen::Vect
     n += inside_[static_cast<std::size_t>(cell)];
   }
   return n;
+}
+
+Eigen::Vector3d CoarseMatch::middle(const Pose& motion) const {
+  const Eigen::Matrix3f rotation = motion.linear().cast<float>();
+  const Eigen::Vector3f translation = motion.translation().cast<float>();
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  int n = 0;
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (moving_[i][3] == 0.0f) continue;
+    const Eigen::Vector3f p = rotation * Eigen::Vector3f(x_[i], y_[i], z_[i]) + translation;
+    if (p.z() < kNearest) continue;
+    if (fixed_camera_.index_of_ray(p.x() / p.z(), p.y() / p.z()) < 0) continue;
+    sum += p;
+    ++n;
+  }
+  if (n == 0) return {0.0, 0.0, 2.0};
+  return (sum / static_cast<float>(n)).cast<double>();
 }
 
 CoarseScore CoarseMatch::judge(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& translation,

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "pinhole.hpp"
 #include "row_sums.hpp"
+#include "rprr_pose/pinhole.hpp"
 
 namespace rprr {
 namespace {

@@ -13,6 +13,7 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr int kCoarsest = 16;         // cells in a row of the coarsest view: 80, 40 and 20 for VGA
 constexpr std::size_t kSlid = 6;      // candidates that are also tried some way along
 constexpr double kSharedPower = 0.4;  // how much more of a view that is shared counts
+constexpr double kSlideStep = 0.25;   // metres
 constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
 constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
@@ -144,22 +145,26 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   candidates = std::move(kept);
 }
 
-// Along a corridor or a wall depth lets a pose slide: the best candidates are tried again some way
-// along the two directions that depth knows least, for luma to tell.
-void PreviewPoseEstimator::slide(std::vector<Candidate>& candidates) const {
+// Along a corridor or a wall depth lets a pose slide, and what repeats there fits again further on:
+// the best candidates are tried again along the two directions that depth knows least, a little way
+// for luma to tell, and wherever the coarsest views match once more.
+void PreviewPoseEstimator::slide(const CoarseMatch& match,
+                                 std::vector<Candidate>& candidates) const {
   const std::size_t count = std::min(candidates.size(), kSlid);
   for (std::size_t i = 0; i < count; ++i) {
     Matrix6 scaled = candidates[i].sums.geometric;
     scaled.rightCols<3>() /= kMetresPerRadian;
     scaled.bottomRows<3>() /= kMetresPerRadian;
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+    const Pose from = candidates[i].motion;
     for (int k = 0; k < 2; ++k) {
       Twist direction = eigen.eigenvectors().col(k);
       direction.tail<3>() /= kMetresPerRadian;
-      for (const double metres : {-0.5, -0.25, 0.25, 0.5}) {
-        Candidate slid;
-        slid.motion = exp_se3(metres * direction) * candidates[i].motion;
-        candidates.push_back(slid);
+      std::vector<double> distances = matches_along(match, from, direction);
+      distances.insert(distances.end(), {-kSlideStep, kSlideStep});
+      for (const double metres : distances) {
+        candidates.emplace_back();
+        candidates.back().motion = exp_se3(metres * direction) * from;
       }
     }
   }
@@ -168,14 +173,15 @@ void PreviewPoseEstimator::slide(std::vector<Candidate>& candidates) const {
 std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
   const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
   const std::size_t middle = coarsest - 1;
+  const CoarseMatch match(b_[coarsest], a_[coarsest]);
   std::vector<Candidate> candidates;
-  for (const Pose& start : find_starts(b_[coarsest], a_[coarsest], options_.range)) {
+  for (const Pose& start : find_starts(match, options_.range)) {
     candidates.emplace_back();
     candidates.back().motion = start;
   }
   narrow(candidates, middle, 4, {4, 1.0f, 0.5f}, 40, 0.04, 1.5);
   narrow(candidates, middle, 2, {5, 0.5f, 0.2f}, 14, 0.05, 2.0);
-  slide(candidates);
+  slide(match, candidates);
   narrow(candidates, middle, 3, {4, 0.25f, 0.2f}, 12, 0.05, 2.0);
   narrow(candidates, 0, 3, {4, 0.25f, 0.12f}, 6, 0.05, 2.0);
   for (Candidate& candidate : candidates) judge(candidate);

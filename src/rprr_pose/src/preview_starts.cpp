@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "coarse_match.hpp"
+#include <functional>
+#include <utility>
 
 namespace rprr {
 namespace {
@@ -23,6 +23,10 @@ constexpr float kRotationTolerance = 0.5f;
 constexpr float kMotionTolerance = 0.3f;
 // Steps of the climb that follows: first and later ones, in units of these.
 constexpr std::array<double, 4> kClimb = {1.0, 1.0, 0.6, 0.36};
+// What a slide along a direction looks at, metres.
+constexpr int kSlides = 20;
+constexpr double kSlideStep = 0.18;
+constexpr std::size_t kMostPeaks = 2;
 constexpr double kClimbDegrees = 8.0;
 constexpr double kClimbMetres = 0.15;  // per metre of typical depth
 
@@ -98,23 +102,6 @@ std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& r
   return distinct(std::move(all), range.rotations, apart, 1.6 * range.step);
 }
 
-// Middle of what the moving view sees, in the fixed view's frame after the motion: the mean point
-// of the cells that land inside the fixed image.
-Eigen::Vector3d middle_of(const PreviewView& moving, const PreviewView& fixed, const Pose& motion) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int n = 0;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (moving.z[i] == 0.0f) continue;
-    const Eigen::Vector3d p = motion * Eigen::Vector3d(moving.x[i], moving.y[i], moving.z[i]);
-    if (p.z() < 0.1) continue;
-    const Eigen::Vector2d pixel = fixed.camera.project(p);
-    if (!fixed.camera.contains(pixel.x(), pixel.y())) continue;
-    sum += p;
-    ++n;
-  }
-  return n > 0 ? Eigen::Vector3d(sum / n) : Eigen::Vector3d(0, 0, 2);
-}
-
 // The motion after a step along one of its degrees of freedom: translation, or a turn about the
 // middle of what is seen, so that the view stays on it.
 Pose stepped(const Pose& motion, int axis, double metres, double radians, double middle_depth) {
@@ -160,13 +147,11 @@ std::vector<Eigen::Matrix3d> all_turns() {
 
 }  // namespace
 
-std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewView& fixed_coarse,
-                              const StartRange& range) {
-  const CoarseMatch match(moving_coarse, fixed_coarse);
+std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range) {
   std::vector<Judged> turned;
   const std::vector<Eigen::Matrix3d> turns = all_turns();
   for (const Judged& rotation : best_rotations(match, range)) {
-    const Eigen::Vector3d middle = middle_of(moving_coarse, fixed_coarse, rotation.motion);
+    const Eigen::Vector3d middle = match.middle(rotation.motion);
     for (const Eigen::Matrix3d& turn : turns) {
       for (const float nearer : kNearer) {
         Judged one;
@@ -186,6 +171,30 @@ std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewVie
     starts.push_back(one.motion);
   }
   return starts;
+}
+
+std::vector<double> matches_along(const CoarseMatch& match, const Pose& from,
+                                  const Twist& direction) {
+  std::array<Judged, 2 * kSlides + 1> line;
+  for (int k = -kSlides; k <= kSlides; ++k) {
+    Judged& one = line[static_cast<std::size_t>(k + kSlides)];
+    one.motion = exp_se3(k * kSlideStep * direction) * from;
+    judge(match, kMotionTolerance, one);
+  }
+  std::vector<std::pair<float, double>> peaks;
+  for (int k = 1 - kSlides; k < kSlides; ++k) {
+    const auto i = static_cast<std::size_t>(k + kSlides);
+    const float score = line[i].score;
+    if (std::abs(k) < 2 || score <= 0.0f) continue;
+    if (score < line[i - 1].score || score <= line[i + 1].score) continue;
+    peaks.emplace_back(score, k * kSlideStep);
+  }
+  std::sort(peaks.begin(), peaks.end(), std::greater<>());
+  std::vector<double> distances;
+  for (const auto& [score, metres] : peaks) {
+    if (distances.size() < kMostPeaks) distances.push_back(metres);
+  }
+  return distances;
 }
 
 }  // namespace rprr

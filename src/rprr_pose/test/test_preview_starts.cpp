@@ -33,7 +33,7 @@ TEST(PreviewStarts, OneIsNearTheTruthFromFarApart) {
        {std::pair{0.0, 0.0}, {0.2, 10.0}, {0.5, -20.0}, {0.3, 30.0}, {0.8, 0.0}}) {
     const Pose m_ab = test_motion(metres, degrees);
     const auto [turn, shift] =
-        nearest(find_starts(coarse_view(m_ab), a, StartRange()), m_ab.inverse());
+        nearest(find_starts(CoarseMatch(coarse_view(m_ab), a), StartRange()), m_ab.inverse());
     EXPECT_LT(turn, 14.0) << metres << " m, " << degrees << " deg";
     EXPECT_LT(shift, 0.4) << metres << " m, " << degrees << " deg";
   }
@@ -43,7 +43,8 @@ TEST(PreviewStarts, AreDistinctAndNotMoreThanAskedFor) {
   const PreviewView a = coarse_view(Pose::Identity());
   StartRange range;
   range.starts = 12;
-  const std::vector<Pose> starts = find_starts(coarse_view(test_motion(0.2, 10.0)), a, range);
+  const std::vector<Pose> starts =
+      find_starts(CoarseMatch(coarse_view(test_motion(0.2, 10.0)), a), range);
   EXPECT_LE(starts.size(), 12u);
   ASSERT_GT(starts.size(), 1u);
   for (std::size_t i = 1; i < starts.size(); ++i) {
@@ -56,7 +57,7 @@ TEST(PreviewStarts, AreDistinctAndNotMoreThanAskedFor) {
 TEST(PreviewStarts, OfViewsWithoutDepthThereAreStillRotations) {
   PreviewView blind = coarse_view(Pose::Identity());
   blind.z.assign(blind.size(), 0.0f);
-  const std::vector<Pose> starts = find_starts(blind, blind, StartRange());
+  const std::vector<Pose> starts = find_starts(CoarseMatch(blind, blind), StartRange());
   for (const Pose& start : starts) EXPECT_TRUE(is_rigid(start));
 }
 

@@ -79,7 +79,7 @@ class PreviewPoseEstimator {
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
   std::vector<Candidate> search() const;
-  void slide(std::vector<Candidate>& candidates) const;
+  void slide(const CoarseMatch& match, std::vector<Candidate>& candidates) const;
 
   PreviewPoseOptions options_;
   Stamp prepared_ = -1;

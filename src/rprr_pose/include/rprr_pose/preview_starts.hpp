@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/preview_view.hpp"
+#include "rprr_pose/coarse_match.hpp"
 
 namespace rprr {
 
@@ -23,7 +23,11 @@ struct StartRange {
 /// and depths agree where the views then overlap. The best distinct ones are then turned about the
 /// middle of the scene, since a shift of the image may be a turn of the camera or a step aside, and
 /// the best of those are improved step by step under the same judgement.
-std::vector<Pose> find_starts(const PreviewView& moving_coarse, const PreviewView& fixed_coarse,
-                              const StartRange& range);
+std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range);
+
+/// How far along `direction` (unit length; metres) from a motion the views match once more: the
+/// best few local maxima, at least 0.3 m away.
+std::vector<double> matches_along(const CoarseMatch& match, const Pose& from,
+                                  const Twist& direction);
 
 }  // namespace rprr

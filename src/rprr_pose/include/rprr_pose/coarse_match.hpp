@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "pinhole.hpp"
 #include "rprr_geometry/se3.hpp"
+#include "rprr_pose/pinhole.hpp"
 #include "rprr_pose/preview_view.hpp"
 
 namespace rprr {
@@ -28,6 +28,10 @@ class CoarseMatch {
   /// difference from which on depths do not agree at all.
   CoarseScore judge(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& translation,
                     float tolerance) const;
+
+  /// Mean point, in the fixed view's frame, of what lands in the fixed view; 2 m ahead if nothing
+  /// does.
+  Eigen::Vector3d middle(const Pose& motion) const;
 
   /// Median depth of the moving view, metres: what cells without a reading are taken for.
   float typical_depth() const { return typical_depth_; }
