@@ -123,6 +123,7 @@ class NearSums {
         median_(padded(columns)),
         nearest_(padded(columns)),
         reach_(padded(columns)),
+        distance_(padded(columns)),
         count_(padded(columns)),
         sum_(padded(columns)),
         squares_(padded(columns)) {}
@@ -166,19 +167,20 @@ class NearSums {
     Key* count = count_.data();
     Key* sum = sum_.data();
     int* squares = squares_.data();
-    for (int u = 0; u < width; ++u) {
+    Key* distance = distance_.data();
+    for (int u = 0; u < width; ++u) {  // apart from the next, so that all numbers are of 16 bits
       const auto above = static_cast<Key>(static_cast<Count>(row[u] - nearest[u]) ^ 0x8000);
       const auto mask = static_cast<Key>(above <= reach[u] ? -1 : 0);
-      const auto distance = static_cast<Key>(static_cast<Key>(row[u] - median[u]) & mask);
+      distance[u] = static_cast<Key>(static_cast<Key>(row[u] - median[u]) & mask);
       count[u] = static_cast<Key>(count[u] - mask);
-      sum[u] = static_cast<Key>(sum[u] + distance);  // at most 8 times 3% of 65535
-      squares[u] += distance * distance;
+      sum[u] = static_cast<Key>(sum[u] + distance[u]);  // at most 8 times 3% of 65535
     }
+    for (int u = 0; u < width; ++u) squares[u] += distance[u] * distance[u];
   }
 
   int columns_;
   std::vector<Count> median_, nearest_;
-  std::vector<Key> reach_, count_, sum_;
+  std::vector<Key> reach_, distance_, count_, sum_;
   std::vector<int> squares_;
 };
 
