@@ -8,6 +8,7 @@ namespace rprr {
 /// Each adds a subcommand; what it runs sets exit_code.
 void add_pairs_command(CLI::App& app, int& exit_code);
 void add_codec_command(CLI::App& app, int& exit_code);
+void add_preview_command(CLI::App& app, int& exit_code);
 void add_decision_command(CLI::App& app, int& exit_code);
 void add_turntable_command(CLI::App& app, int& exit_code);
 void add_iterations_command(CLI::App& app, int& exit_code);

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   rprr::add_pairs_command(app, exit_code);
   rprr::add_codec_command(app, exit_code);
+  rprr::add_preview_command(app, exit_code);
   rprr::add_decision_command(app, exit_code);
   rprr::add_turntable_command(app, exit_code);
   rprr::add_iterations_command(app, exit_code);

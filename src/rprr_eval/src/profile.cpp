@@ -41,6 +41,7 @@ void read_samples(const YAML::Node& file, SamplesOptions& pose) {
 
 void read_preview(const YAML::Node& file, PreviewOptions& pose) {
   read(file, "preview_step", pose.step);
+  read(file, "preview_lossless", pose.lossless_depth);
   read(file, "preview_quality", pose.colour_quality);
   read(file, "search_yaw", pose.search.range.yaw);
   read(file, "search_pitch", pose.search.range.pitch);

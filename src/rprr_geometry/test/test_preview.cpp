@@ -3,36 +3,63 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <random>
+#include <utility>
+#include <vector>
+
+#include "preview_scene.hpp"
 
 namespace rprr {
 namespace {
 
-// A slanted plane with a nearer box on it and a hole; smooth colours.
-struct Scene {
-  DepthFrame depth;
-  cv::Mat bgr;
-  explicit Scene(int width = 640, int height = 480)
-      : depth{cv::Mat(height, width, CV_16UC1), 0.001}, bgr(height, width, CV_8UC3) {
-    for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u) {
-        const double q = 0.3 + 0.0002 * u + 0.0003 * v;
-        depth.counts.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::lround(1000.0 / q));
-        bgr.at<cv::Vec3b>(v, u) = cv::Vec3b(
-            static_cast<std::uint8_t>(u * 255 / width), static_cast<std::uint8_t>(v * 255 / height),
-            static_cast<std::uint8_t>(128 + 60 * std::sin(0.02 * (u + v))));
-      }
+// What make_preview is to compute, one block at a time and in no hurry.
+double slow_inverse(const DepthFrame& depth, const cv::Rect& rect) {
+  std::vector<int> sampled;
+  for (int v = rect.y; v < rect.y + rect.height; v += 2) {
+    for (int u = rect.x + v / 2 % 2; u < rect.x + rect.width; u += 2) {
+      const int value = depth.counts.at<std::uint16_t>(v, u);
+      if (value != 0) sampled.push_back(value);
     }
-    const cv::Rect image(0, 0, width, height);
-    depth.counts(cv::Rect(203, 100, 100, 120) & image).setTo(900);
-    depth.counts(cv::Rect(400, 300, 64, 64) & image).setTo(0);
   }
-};
+  if (sampled.size() < 3) return 0.0;
+  std::sort(sampled.begin(), sampled.end());
+  const int median = sampled[sampled.size() / 2];
+  double sum = 0.0;
+  int count = 0;
+  for (int v = rect.y; v < rect.y + rect.height; ++v) {
+    for (int u = rect.x; u < rect.x + rect.width; ++u) {
+      const int value = depth.counts.at<std::uint16_t>(v, u);
+      if (100 * std::abs(value - median) > 3 * median) continue;
+      sum += 1.0 / (value * depth.unit);
+      ++count;
+    }
+  }
+  return 4 * count >= rect.area() ? sum / count : 0.0;
+}
+
+// Surfaces a little apart, holes, and now and then a reading of any size.
+DepthFrame noisy_depth(int width, int height, int unit_in_tenths_of_mm, unsigned seed) {
+  std::mt19937 random(seed);
+  DepthFrame frame{cv::Mat(height, width, CV_16UC1), unit_in_tenths_of_mm * 1e-4};
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const int surface = (u / 20 + v / 30) % 4 * 9000 + 1500;
+      int value = surface + static_cast<int>(random() % 97) * surface / 2000;
+      if (random() % 8 == 0) value = 0;
+      if (random() % 50 == 0) value = static_cast<int>(random() % 65536);
+      if ((u / 40 + v / 24) % 7 == 3) value = random() % 3 == 0 ? value : 0;
+      if (random() % 200 == 0) value = 65535;
+      frame.counts.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(value);
+    }
+  }
+  return frame;
+}
 
 TEST(Preview, ABlockOfAPlaneHasTheDepthOfItsCentre) {
-  const Scene scene;
+  const PreviewScene scene;
   const BlockPreview preview = make_preview(scene.depth, scene.bgr, 0.001);
   for (const auto& [column, row] : {std::pair{2, 2}, {70, 10}, {10, 50}}) {
     const double q = 0.3 + 0.0002 * (column * 8 + 3.5) + 0.0003 * (row * 8 + 3.5);
@@ -41,61 +68,106 @@ TEST(Preview, ABlockOfAPlaneHasTheDepthOfItsCentre) {
 }
 
 TEST(Preview, ABlockAcrossAnEdgeTakesOneSideNotTheMean) {
-  const Scene scene;
-  const BlockPreview preview = make_preview(scene.depth, scene.bgr);
+  const PreviewScene scene;
   // Column 25 holds pixels 200 to 207; the box starts at 203 and has most of it.
-  EXPECT_NEAR(1.0 / preview.q(25, 15), 0.9, 0.01);
+  EXPECT_NEAR(1.0 / make_preview(scene.depth, scene.bgr).q(25, 15), 0.9, 0.01);
+  EXPECT_EQ(make_exact_preview(scene.depth, scene.bgr).depth.at<std::uint16_t>(15, 25), 900);
 }
 
 TEST(Preview, HolesStayHoles) {
-  const Scene scene;
-  const BlockPreview preview = make_preview(scene.depth, scene.bgr);
-  EXPECT_FALSE(preview.valid(52, 40));
-  EXPECT_TRUE(preview.valid(48, 40));
-}
-
-TEST(Preview, DepthComesBackExactlyAndColourNearly) {
-  for (const auto& [width, height] : {std::pair{640, 480}, {540, 360}, {9, 7}, {8, 8}}) {
-    const Scene scene(width, height);
-    const BlockPreview preview = make_preview(scene.depth, scene.bgr);
-    const Result<BlockPreview> back = decode_preview(encode_preview(preview, 60));
-    ASSERT_TRUE(back) << back.reason() << " " << width << "x" << height;
-    EXPECT_EQ(cv::norm(back->inverse_depth, preview.inverse_depth, cv::NORM_INF), 0.0);
-    EXPECT_EQ(back->step, preview.step);
-    if (width < 64) continue;  // chroma of a few pixels is shared by all of them
-    EXPECT_LT(cv::norm(back->bgr, preview.bgr, cv::NORM_L1) / (3.0 * preview.grid.count()), 8.0);
+  const PreviewScene scene;
+  for (const BlockPreview& preview :
+       {make_preview(scene.depth, scene.bgr), make_exact_preview(scene.depth, scene.bgr)}) {
+    EXPECT_FALSE(preview.valid(52, 40));
+    EXPECT_TRUE(preview.valid(48, 40));
+    const int hole = preview.grid.index(52, 40);
+    EXPECT_EQ(preview.q(hole), 0.0);
+    EXPECT_EQ(preview.metres(hole), 0.0);
   }
 }
 
-TEST(Preview, NoiseComesBackToo) {
-  std::mt19937 random(2);
-  BlockPreview preview = make_preview(Scene().depth, Scene().bgr);
-  for (int i = 0; i < preview.grid.count(); ++i) {
-    preview.inverse_depth.ptr<std::uint16_t>()[i] = static_cast<std::uint16_t>(random());
-  }
-  const Result<BlockPreview> back = decode_preview(encode_preview(preview, 30));
-  ASSERT_TRUE(back) << back.reason();
-  EXPECT_EQ(cv::norm(back->inverse_depth, preview.inverse_depth, cv::NORM_INF), 0.0);
-}
-
-TEST(Preview, EveryCutIsAnErrorAndHostileBytesNeverCrash) {
-  const Scene scene;
-  const Bytes good = encode_preview(make_preview(scene.depth, scene.bgr), 40);
-  for (std::size_t size = 0; size < good.size(); ++size) {
-    ASSERT_FALSE(decode_preview(ByteView(good).first(size))) << "cut to " << size;
-  }
-  std::mt19937 random(3);
-  for (int trial = 0; trial < 3000; ++trial) {
-    Bytes bytes(good.begin(), good.end() - 4);
-    for (int i = 0; i < 3; ++i)
-      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
-    if (trial % 5 == 0) bytes.resize(random() % bytes.size());
-    seal(bytes);
-    const Result<BlockPreview> preview = decode_preview(bytes);
-    if (preview) {
-      ASSERT_EQ(preview->bgr.size(), preview->inverse_depth.size());
+TEST(Preview, OfAnyDepthsItIsWhatTheDefinitionSays) {
+  for (const auto& [width, height] : {std::pair{640, 480}, {540, 360}, {33, 9}, {7, 1}, {1, 8}}) {
+    const DepthFrame depth = noisy_depth(width, height, 10, 5);
+    const BlockPreview preview = make_preview(depth, {}, 0.001);
+    for (int block = 0; block < preview.grid.count(); ++block) {
+      const double q = slow_inverse(depth, preview.grid.rect(block));
+      ASSERT_EQ(preview.valid(block), q != 0.0) << width << "x" << height << " block " << block;
+      if (q != 0.0) {
+        ASSERT_NEAR(preview.q(block), std::max(q, 0.001), 0.0006 + 1e-4 * q) << block;
+      }
     }
   }
+}
+
+TEST(Preview, AnExactDepthIsAReadingOfItsBlockNearestTheMean) {
+  const DepthFrame depth = noisy_depth(540, 360, 2, 6);
+  const BlockPreview preview = make_exact_preview(depth, {});
+  EXPECT_EQ(preview.coding, PreviewDepth::kCounts);
+  EXPECT_FLOAT_EQ(static_cast<float>(preview.step), 2e-4f);
+  int valid = 0;
+  for (int block = 0; block < preview.grid.count(); ++block) {
+    const cv::Rect rect = preview.grid.rect(block);
+    const double q = slow_inverse(depth, rect);
+    ASSERT_EQ(preview.valid(block), q != 0.0);
+    if (q == 0.0) continue;
+    ++valid;
+    const int chosen = preview.depth.ptr<std::uint16_t>()[block];
+    const double wanted = 1.0 / (q * depth.unit);
+    bool occurs = false;
+    for (int v = rect.y; v < rect.y + rect.height; ++v) {
+      for (int u = rect.x; u < rect.x + rect.width; ++u) {
+        const int value = depth.counts.at<std::uint16_t>(v, u);
+        occurs = occurs || value == chosen;
+        if (value == 0) continue;
+        ASSERT_GE(std::abs(value - wanted) + 2.0 + 5e-5 * wanted, std::abs(chosen - wanted));
+      }
+    }
+    ASSERT_TRUE(occurs) << block;
+    EXPECT_NEAR(preview.metres(block), chosen * depth.unit, 1e-5);
+    EXPECT_NEAR(preview.q(block) * preview.metres(block), 1.0, 1e-12);
+  }
+  EXPECT_GT(valid, preview.grid.count() / 2);
+}
+
+TEST(Preview, ResolutionIsThatOfWhatIsCounted) {
+  const PreviewScene scene;
+  const BlockPreview rounded = make_preview(scene.depth, scene.bgr, 0.003);
+  EXPECT_NEAR(rounded.resolution(2.0), 0.012, 1e-6);
+  const BlockPreview exact = make_exact_preview(scene.depth, scene.bgr);
+  EXPECT_NEAR(exact.resolution(2.0), 0.001, 1e-6);
+}
+
+TEST(Preview, ColoursAreRoundedMeansAndGreyWithoutAnImageThatFits) {
+  std::mt19937 random(7);
+  cv::Mat bgr(61, 77, CV_8UC3);
+  for (auto it = bgr.begin<cv::Vec3b>(); it != bgr.end<cv::Vec3b>(); ++it) {
+    for (int c = 0; c < 3; ++c) (*it)[c] = static_cast<std::uint8_t>(random() % 7 == 0 ? 255 : 240);
+  }
+  const DepthFrame depth{cv::Mat(61, 77, CV_16UC1, cv::Scalar(1000)), 0.001};
+  const BlockPreview preview = make_preview(depth, bgr);
+  for (int block = 0; block < preview.grid.count(); ++block) {
+    const cv::Scalar mean = cv::mean(bgr(preview.grid.rect(block)));
+    const cv::Vec3b colour = preview.bgr.ptr<cv::Vec3b>()[block];
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(colour[c], mean[c], 0.501);
+  }
+  EXPECT_EQ(make_preview(depth, cv::Mat(61, 76, CV_8UC3)).bgr.at<cv::Vec3b>(3, 3),
+            cv::Vec3b(128, 128, 128));
+}
+
+TEST(Preview, WhatDoesNotFitTogetherIsNotWellFormed) {
+  const PreviewScene scene(64, 48);
+  const BlockPreview good = make_preview(scene.depth, scene.bgr);
+  EXPECT_TRUE(good.well_formed());
+  BlockPreview bad = good;
+  bad.depth = cv::Mat(6, 7, CV_16UC1);
+  EXPECT_FALSE(bad.well_formed());
+  bad = good;
+  bad.bgr = cv::Mat(6, 8, CV_8UC1);
+  EXPECT_FALSE(bad.well_formed());
+  bad = good;
+  bad.step = 0.0;
+  EXPECT_FALSE(bad.well_formed());
 }
 
 }  // namespace

@@ -77,7 +77,9 @@ class PreviewDependent final : public ExchangeRole {
     content.camera_hash = camera_hash(frame.camera);
     content.known_peer_hash = peer_camera_ ? camera_hash(*peer_camera_) : 0;
     if (camera_sent_ != content.camera_hash) content.camera = frame.camera;
-    content.preview = encode_preview(make_preview(frame.depth, frame.bgr, options_.step),
+    content.preview = encode_preview(options_.lossless_depth
+                                         ? make_exact_preview(frame.depth, frame.bgr)
+                                         : make_preview(frame.depth, frame.bgr, options_.step),
                                      options_.colour_quality);
     return content;
   }

@@ -30,7 +30,9 @@ Camera cell_camera(const Camera& camera, int side, int columns, int rows) {
           (camera.cy - offset) / side};
 }
 
-void place_points(PreviewView& view, float step) {
+// resolution: of z, metres, as a function of z; what the view was rounded to.
+template <typename Resolution>
+void place_points(PreviewView& view, const Resolution& resolution) {
   for (int r = 0; r < view.height(); ++r) {
     for (int c = 0; c < view.width(); ++c) {
       const auto i = static_cast<std::size_t>(r * view.width() + c);
@@ -39,7 +41,7 @@ void place_points(PreviewView& view, float step) {
       view.x[i] = static_cast<float>((c - view.camera.cx) / view.camera.fx) * z;
       view.y[i] = static_cast<float>((r - view.camera.cy) / view.camera.fy) * z;
       const auto noise = static_cast<float>(depth_sigma(z));
-      const float rounding = 0.29f * step * z * z;
+      const auto rounding = static_cast<float>(0.29 * resolution(static_cast<double>(z)));
       view.sigma[i] = std::sqrt(noise * noise + rounding * rounding);
     }
   }
@@ -104,14 +106,13 @@ PreviewView make_view(const BlockPreview& preview, const Camera& camera) {
   view.camera = cell_camera(camera, kBlockSide, preview.grid.columns, preview.grid.rows);
   resize(view);
   for (std::size_t i = 0; i < view.size(); ++i) {
-    const auto q = preview.inverse_depth.ptr<std::uint16_t>()[i];
-    if (q != 0) view.z[i] = static_cast<float>(1.0 / (q * preview.step));
+    view.z[i] = static_cast<float>(preview.metres(static_cast<int>(i)));
     const std::uint8_t* bgr = preview.bgr.ptr<std::uint8_t>() + 3 * i;
     view.luma[i] = 0.114f * bgr[0] + 0.587f * bgr[1] + 0.299f * bgr[2];
     view.blue[i] = bgr[0] - view.luma[i];
     view.red[i] = bgr[2] - view.luma[i];
   }
-  place_points(view, static_cast<float>(preview.step));
+  place_points(view, [&](double z) { return preview.resolution(z); });
   fit_normals(view);
   return view;
 }
@@ -151,7 +152,7 @@ PreviewView half_view(const PreviewView& view) {
       half.z[out] = static_cast<float>(same) / q;
     }
   }
-  place_points(half, 0.0f);
+  place_points(half, [](double) { return 0.0; });
   fit_normals(half);
   return half;
 }

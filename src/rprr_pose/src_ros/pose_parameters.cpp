@@ -46,6 +46,7 @@ PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std
     value = from_seconds(private_nh.param(name, to_seconds(value)));
   };
   private_nh.param("preview_step", options.step, options.step);
+  private_nh.param("preview_lossless", options.lossless_depth, options.lossless_depth);
   private_nh.param("preview_quality", options.colour_quality, options.colour_quality);
   StartRange& range = options.search.range;
   private_nh.param("search_yaw", range.yaw, range.yaw);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "textured_views.hpp"
@@ -61,6 +62,23 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
   EXPECT_EQ(at_b.decisions[0].exchange_bytes,
             serialised_bytes(at_b.send[0]) + serialised_bytes(at_a.send[0]));
   EXPECT_EQ(pose().bytes_spent, at_b.decisions[0].exchange_bytes);
+}
+
+TEST_F(PreviewProtocol, TheDependentMaySendDepthLossless) {
+  PreviewOptions options = options_for("b", "a");
+  options.lossless_depth = true;
+  dependent = make_preview_dependent(options);
+  exchange(1000);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
+  EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
+  ASSERT_EQ(at_a.decisions.size(), 2u);
+  const Result<BlockPreview> preview = decode_preview(at_a.decisions[1].peer_preview);
+  ASSERT_TRUE(preview) << preview.reason();
+  EXPECT_EQ(preview->coding, PreviewDepth::kCounts);
+  const PoseFramePtr sent = frame_b();
+  const BlockPreview exact = make_exact_preview(sent->depth, sent->bgr);
+  EXPECT_TRUE(std::equal(exact.depth.begin<std::uint16_t>(), exact.depth.end<std::uint16_t>(),
+                         preview->depth.begin<std::uint16_t>()));
 }
 
 TEST_F(PreviewProtocol, IntrinsicsCrossTheRadioOnce) {

@@ -59,18 +59,14 @@ bool of_size(const cv::Mat& image, const Camera& camera) {
 
 // The preview may come from a radio: its parts must fit each other and b's camera.
 bool usable(const BlockPreview& b, const Camera& b_camera) {
-  const cv::Size blocks(b.grid.columns, b.grid.rows);
-  return b.grid.width == b_camera.width && b.grid.height == b_camera.height &&
-         b.inverse_depth.size() == blocks && b.inverse_depth.type() == CV_16UC1 &&
-         b.inverse_depth.isContinuous() && b.bgr.size() == blocks && b.bgr.type() == CV_8UC3 &&
-         b.bgr.isContinuous() && b.step > 0.0;
+  return b.grid.width == b_camera.width && b.grid.height == b_camera.height && b.well_formed();
 }
 
 }  // namespace
 
-float Decider::tolerance(float z, double step) const {
+float Decider::tolerance(float z, double resolution) const {
   const auto sigma = static_cast<float>(depth_sigma(static_cast<double>(z)));
-  const auto rounding = static_cast<float>(step) * 0.5f * z * z;
+  const auto rounding = static_cast<float>(0.5 * resolution);
   return options_.depth_tolerance + options_.depth_tolerance_share * z + 2.0f * sigma + rounding;
 }
 
@@ -99,14 +95,13 @@ BlockDecision Decider::decide(const DepthFrame& a, const cv::Mat& a_bgr, const C
 void Decider::gather(const cv::Mat& a_bgr, const BlockPreview& b) {
   const WarpedDepth& warped = predictor_.warped();
   evidence_.assign(static_cast<std::size_t>(b.grid.count()), {});
-  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
   for (int block = 0; block < b.grid.count(); ++block) {
     const cv::Rect rect = b.grid.rect(block);
     float nearest = 0.0f;
     float farthest = 0.0f;
-    if (counts[block] != 0) {
-      const auto z = static_cast<float>(1.0 / (counts[block] * b.step));
-      const float reach = tolerance(z, b.step);
+    if (b.valid(block)) {
+      const auto z = static_cast<float>(b.metres(block));
+      const float reach = tolerance(z, b.resolution(b.metres(block)));
       nearest = z - reach;
       farthest = z + reach;
     }
@@ -125,13 +120,12 @@ void Decider::gather(const cv::Mat& a_bgr, const BlockPreview& b) {
 void Decider::look_back(const Camera& a_camera, const Camera& b_camera, const Pose& m_ab,
                         const BlockPreview& b) {
   const Pose m_ba = m_ab.inverse();
-  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
   for (int block = 0; block < b.grid.count(); ++block) {
-    if (counts[block] == 0) continue;
+    if (!b.valid(block)) continue;
     const cv::Rect rect = b.grid.rect(block);
     const Eigen::Vector3d p =
         m_ba * b_camera.unproject(rect.x + 0.5 * (rect.width - 1), rect.y + 0.5 * (rect.height - 1),
-                                  1.0 / (counts[block] * b.step));
+                                  b.metres(block));
     bool& sees = evidence_[static_cast<std::size_t>(block)].sees_a;
     sees = p.z() > 0.0;
     if (!sees) continue;
@@ -141,10 +135,9 @@ void Decider::look_back(const Camera& a_camera, const Camera& b_camera, const Po
 }
 
 void Decider::judge_surfaces(const BlockPreview& b, BlockDecision& decision) const {
-  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
   for (int block = 0; block < b.grid.count(); ++block) {
     const Evidence& evidence = evidence_[static_cast<std::size_t>(block)];
-    const bool has_depth = counts[block] != 0;
+    const bool has_depth = b.valid(block);
     int* reason = nullptr;
     if (evidence.coverage < options_.least_coverage) {
       reason = &decision.uncovered;
@@ -162,11 +155,10 @@ void Decider::judge_surfaces(const BlockPreview& b, BlockDecision& decision) con
 
 bool Decider::fit_gains(const BlockPreview& b, const BlockMask& another_surface,
                         std::array<ColourGain, 3>& gains) const {
-  const auto* counts = b.inverse_depth.ptr<std::uint16_t>();
   const auto* colours = b.bgr.ptr<cv::Vec3b>();
   std::vector<int> sure;  // b's own depth says that the surface is the same
   for (int block = 0; block < b.grid.count(); ++block) {
-    if (!another_surface[block] && counts[block] != 0) sure.push_back(block);
+    if (!another_surface[block] && b.valid(block)) sure.push_back(block);
   }
   std::vector<ColourPair> pairs;
   std::vector<float> buffer;

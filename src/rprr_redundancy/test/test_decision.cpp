@@ -54,8 +54,9 @@ class DecisionOfBothSizes : public testing::TestWithParam<Camera> {
   static constexpr double kShift = 0.1;
   DecisionOfBothSizes() : camera(GetParam()), a(wall(camera, 0.0, 1)), b(wall(camera, kShift, 2)) {}
 
-  BlockDecision decide() {
-    const auto preview = decode_preview(encode_preview(make_preview(b.depth, b.bgr), kQuality));
+  BlockDecision decide() { return decide(make_preview(b.depth, b.bgr)); }
+  BlockDecision decide(const BlockPreview& sent) {
+    const auto preview = decode_preview(encode_preview(sent, kQuality));
     EXPECT_TRUE(preview) << preview.reason();
     return Decider().decide(a.depth, a.bgr, camera, camera, right_by(kShift), &*preview);
   }
@@ -128,6 +129,20 @@ TEST_P(DecisionOfBothSizes, WhereTheDependentHasNoDepthNoneIsAskedFor) {
   const BlockDecision decision = decide();
   EXPECT_GT(decision.uncovered, 0);
   EXPECT_EQ(decision.send.depth.count(), 0);
+}
+
+TEST_P(DecisionOfBothSizes, LosslessDepthsAskForTheSameBlocks) {
+  b.depth.counts(cv::Rect(300, 200, 64, 64)).setTo(700);
+  b.depth.counts(patch).setTo(0);
+  const BlockDecision rounded = decide();
+  const BlockDecision exact = decide(make_exact_preview(b.depth, b.bgr));
+  EXPECT_TRUE(exact.from_preview);
+  EXPECT_GT(exact.hidden, 0);
+  int different = 0;
+  for (int block = 0; block < exact.send.depth.grid().count(); ++block) {
+    different += exact.send.depth[block] != rounded.send.depth[block] ? 1 : 0;
+  }
+  EXPECT_LE(different, exact.send.depth.grid().count() / 100);
 }
 
 TEST_P(DecisionOfBothSizes, NoUsablePreviewIsThePapersPrediction) {

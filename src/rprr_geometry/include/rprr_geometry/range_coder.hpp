@@ -36,19 +36,11 @@ class AdaptiveBit {
 class RangeEncoder {
  public:
   void put(AdaptiveBit& context, bool bit) {
-    const std::uint32_t split = context.split(range_);
-    if (bit) {
-      low_ += split;
-      range_ -= split;
-    } else {
-      range_ = split;
-    }
+    narrow(context.split(range_), bit);
     context.update(bit);
-    while (range_ < kTop) {
-      range_ <<= 8;
-      shift_low();
-    }
   }
+  /// A bit that is a zero in `zero` of 65536 cases (1 to 65535), by whatever model.
+  void put(std::uint32_t zero, bool bit) { narrow((range_ >> 16) * zero, bit); }
   /// The payload; the encoder is done.
   Bytes finish() {
     for (int i = 0; i < 5; ++i) shift_low();
@@ -60,6 +52,18 @@ class RangeEncoder {
  private:
   static constexpr std::uint32_t kTop = 1u << 24;
 
+  void narrow(std::uint32_t split, bool bit) {
+    if (bit) {
+      low_ += split;
+      range_ -= split;
+    } else {
+      range_ = split;
+    }
+    while (range_ < kTop) {
+      range_ <<= 8;
+      shift_low();
+    }
+  }
   void shift_low() {
     if (static_cast<std::uint32_t>(low_) < 0xFF000000u || (low_ >> 32) != 0) {
       const auto carry = static_cast<std::uint8_t>(low_ >> 32);
@@ -86,7 +90,18 @@ class RangeDecoder {
     for (int i = 0; i < 4; ++i) code_ = code_ << 8 | next();
   }
   bool get(AdaptiveBit& context) {
-    const std::uint32_t split = context.split(range_);
+    const bool bit = narrow(context.split(range_));
+    context.update(bit);
+    return bit;
+  }
+  /// What was put with the same `zero`.
+  bool get(std::uint32_t zero) { return narrow((range_ >> 16) * zero); }
+  bool read_all() const { return at_ >= bytes_.size; }
+
+ private:
+  static constexpr std::uint32_t kTop = 1u << 24;
+
+  bool narrow(std::uint32_t split) {
     const bool bit = code_ >= split;
     if (bit) {
       code_ -= split;
@@ -94,18 +109,12 @@ class RangeDecoder {
     } else {
       range_ = split;
     }
-    context.update(bit);
     while (range_ < kTop) {
       range_ <<= 8;
       code_ = code_ << 8 | next();
     }
     return bit;
   }
-  bool read_all() const { return at_ >= bytes_.size; }
-
- private:
-  static constexpr std::uint32_t kTop = 1u << 24;
-
   std::uint32_t next() { return at_ < bytes_.size ? bytes_.data[at_++] : 0u; }
 
   ByteView bytes_;

@@ -15,11 +15,12 @@ namespace rprr {
 /// Settings of the `preview` protocol: b sends one small message for each frame, a answers with the
 /// pose, or why there is none.
 struct PreviewOptions {
-  std::string self;           // this robot
-  std::string peer;           // the other robot
-  double step = 0.003;        // dependent: of inverse depth in the preview, 1/metre
-  int colour_quality = 40;    // dependent: of the preview's colours, WebP's 0 to 100
-  PreviewPoseOptions search;  // reference
+  std::string self;             // this robot
+  std::string peer;             // the other robot
+  double step = 0.003;          // dependent: of inverse depth in the preview, 1/metre
+  bool lossless_depth = false;  // dependent: readings of the sensor, unchanged, instead of steps
+  int colour_quality = 40;      // dependent: of the preview's colours, WebP's 0 to 100
+  PreviewPoseOptions search;    // reference
   Duration step_timeout = from_seconds(0.5);  // dependent: for a's answer; reference: for its frame
   Duration min_period = 0;                    // dependent: between previews
   Duration max_stamp_difference = from_seconds(0.05);  // reference: between the robots' frames

@@ -73,7 +73,7 @@ class Decider {
   bool fit_gains(const BlockPreview& b, const BlockMask& another_surface,
                  std::array<ColourGain, 3>& gains) const;
   void judge_colours(const BlockPreview& b, BlockDecision& decision) const;
-  float tolerance(float z, double step) const;
+  float tolerance(float z, double resolution) const;
 
   DecisionOptions options_;
   Predictor predictor_;
