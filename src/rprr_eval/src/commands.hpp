@@ -13,6 +13,7 @@ void add_turntable_command(CLI::App& app, int& exit_code);
 void add_iterations_command(CLI::App& app, int& exit_code);
 void add_latency_command(CLI::App& app, int& exit_code);
 void add_poses_command(CLI::App& app, int& exit_code);
+void add_consistency_command(CLI::App& app, int& exit_code);
 void add_methods_command(CLI::App& app, int& exit_code);
 
 }  // namespace rprr
