@@ -2,17 +2,13 @@
 #include "rprr_eval/pose_survey.hpp"
 
 #include <algorithm>
-#include <ctime>
 
+#include "rprr_eval/processor_time.hpp"
 #include "rprr_sensor/motion.hpp"
 #include "rprr_sensor/random.hpp"
 
 namespace rprr {
 namespace {
-
-double processor_ms() {
-  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 std::vector<std::size_t> entries_with_pose(const TumFolder& folder, std::size_t most) {
   std::vector<std::size_t> known;
@@ -114,9 +110,9 @@ Result<bool> survey_pair(FrameSource& source, const KnownPair& pair, Registratio
   if (!a) return Error{a.reason()};
   const Result<PoseFramePtr> b = source.frame(pair.b);
   if (!b) return Error{b.reason()};
-  const double start = processor_ms();
+  const ProcessorTime clock;
   const RegistrationResult result = method.align(**a, **b, Pose::Identity());
-  const double ms = processor_ms() - start;
+  const double ms = clock.ms();
   const int wrong_before = tally.accepted_wrong;
   tally.add(result, pair.truth, ms);
   if (tally.accepted_wrong > wrong_before) tally.wrong_pairs.push_back(pair);
