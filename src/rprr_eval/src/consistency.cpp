@@ -9,6 +9,7 @@
 #include "rprr_eval/chi_square.hpp"
 #include "rprr_eval/exchange_registration.hpp"
 #include "rprr_eval/summary.hpp"
+#include "rprr_eval/turntable.hpp"
 #include "rprr_sensor/motion.hpp"
 #include "rprr_sensor/random.hpp"
 #include "rprr_sensor/sensor_model.hpp"
@@ -27,13 +28,31 @@ Eigen::Vector3d random_direction(Random& random) {
 }
 
 // Somewhere about the middle of the room, where there is space, gaze outwards and somewhat down.
-Pose random_view(Random& random) {
+Pose view_of_room(Random& random) {
   const double turn = random.between(-M_PI, M_PI);
   const double out = random.between(0.2, 1.0);
   const Eigen::Vector3d eye(out * std::cos(turn), 0.75 * out * std::sin(turn),
                             random.between(1.2, 1.5));
   return look_along(eye, turn + random.between(-40.0, 40.0) * kDegree,
                     random.between(-22.0, -4.0) * kDegree, random.between(-4.0, 4.0) * kDegree);
+}
+
+// From along the corridor to at a wall.
+Pose view_of_corridor(Random& random) {
+  const Eigen::Vector3d eye(random.between(-1.0, 1.0), random.between(-0.4, 0.4),
+                            random.between(1.2, 1.5));
+  return look_along(eye, random.between(-60.0, 60.0) * kDegree,
+                    random.between(-22.0, -4.0) * kDegree, random.between(-4.0, 4.0) * kDegree);
+}
+
+Scene make_scene(TrueScene scene, std::uint32_t seed) {
+  if (scene == TrueScene::kTurntable) return make_turntable(seed);
+  return scene == TrueScene::kCorridor ? make_corridor(seed) : make_room(seed);
+}
+
+Pose random_view(TrueScene scene, Random& random) {
+  if (scene == TrueScene::kTurntable) return turntable_camera(random.between(0.0, 360.0));
+  return scene == TrueScene::kCorridor ? view_of_corridor(random) : view_of_room(random);
 }
 
 Pose random_motion(Random& random, const ConsistencyOptions& options) {
@@ -44,9 +63,9 @@ Pose random_motion(Random& random, const ConsistencyOptions& options) {
   return motion;
 }
 
-PoseFramePtr frame_of(const Scene& room, const SensorModel& sensor, const Pose& world_from_camera,
+PoseFramePtr frame_of(const Scene& scene, const SensorModel& sensor, const Pose& world_from_camera,
                       std::uint32_t noise) {
-  RgbdImage image = sense(room, sensor, world_from_camera, noise);
+  RgbdImage image = sense(scene, sensor, world_from_camera, noise);
   auto frame = std::make_shared<PoseFrame>();
   frame->stamp = from_seconds(1.0);
   frame->camera = rounded_for_wire(sensor.camera);
@@ -66,18 +85,18 @@ double squared_mahalanobis(const Eigen::Matrix<double, Size, 1>& error,
 }  // namespace
 
 std::vector<TruePair> consistency_pairs(std::uint32_t seed, const ConsistencyOptions& options) {
-  const Scene room = make_room(seed);
+  const Scene scene = make_scene(options.scene, seed);
   const SensorModel sensor_a = example_sensor_a(options.width, options.width * 3 / 4);
   const SensorModel sensor_b = example_sensor_b(options.width, options.width * 3 / 4);
   Random random(seed);
   std::vector<TruePair> pairs;
-  for (int k = 0; k < options.pairs_per_room; ++k) {
-    const Pose at_a = random_view(random);
+  for (int k = 0; k < options.pairs_per_scene; ++k) {
+    const Pose at_a = random_view(options.scene, random);
     const Pose at_b = at_a * random_motion(random, options);
     const auto noise_a = static_cast<std::uint32_t>(random.bits());
     const auto noise_b = static_cast<std::uint32_t>(random.bits());
-    pairs.push_back({frame_of(room, sensor_a, at_a, noise_a),
-                     frame_of(room, sensor_b, at_b, noise_b), relative_motion(at_a, at_b)});
+    pairs.push_back({frame_of(scene, sensor_a, at_a, noise_a),
+                     frame_of(scene, sensor_b, at_b, noise_b), relative_motion(at_a, at_b)});
   }
   return pairs;
 }

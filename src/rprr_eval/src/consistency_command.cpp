@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
@@ -13,8 +14,13 @@
 namespace rprr {
 namespace {
 
+const std::map<std::string, TrueScene> kScenes = {{"room", TrueScene::kRoom},
+                                                  {"turntable", TrueScene::kTurntable},
+                                                  {"corridor", TrueScene::kCorridor}};
+
 struct ConsistencyArguments {
   ConsistencyOptions options;
+  std::string scene = "room";
   std::string profile = "default";
   std::string json;
 };
@@ -106,7 +112,8 @@ int run(const ConsistencyArguments& arguments) {
   if (!profile) return std::cerr << profile.reason() << "\n", 1;
   JsonOutput json(arguments.json);
   if (!json.good()) return 1;
-  const ConsistencyOptions& options = arguments.options;
+  ConsistencyOptions options = arguments.options;
+  options.scene = kScenes.at(arguments.scene);
   std::vector<PoseTrial> trials;
   for (int s = 0; s < options.seeds; ++s) {
     const std::uint32_t seed = options.first_seed + static_cast<std::uint32_t>(s);
@@ -120,7 +127,7 @@ int run(const ConsistencyArguments& arguments) {
   }
   const ConsistencySummary summary = summarise(trials);
   json.write(to_json(summary));
-  std::cerr << "rooms " << options.first_seed << " to "
+  std::cerr << arguments.scene << " " << options.first_seed << " to "
             << options.first_seed + static_cast<std::uint32_t>(options.seeds) - 1
             << ", motions up to " << fixed(options.max_degrees, 0) << " deg and "
             << fixed(options.max_metres, 2) << " m, profile " << arguments.profile
@@ -134,12 +141,15 @@ int run(const ConsistencyArguments& arguments) {
 
 void add_options(CLI::App* command, ConsistencyArguments& arguments) {
   ConsistencyOptions& options = arguments.options;
-  command->add_option("--seeds", options.seeds, "rooms")
+  command->add_option("--scene", arguments.scene, "room, turntable or corridor")
+      ->check(CLI::IsMember(kScenes))
+      ->capture_default_str();
+  command->add_option("--seeds", options.seeds, "scenes")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--first-seed", options.first_seed, "of the first room")
+  command->add_option("--first-seed", options.first_seed, "of the first scene")
       ->capture_default_str();
-  command->add_option("--pairs", options.pairs_per_room, "in each room")
+  command->add_option("--pairs", options.pairs_per_scene, "in each scene")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--max-degrees", options.max_degrees, "of the motions")

@@ -94,7 +94,7 @@ TEST(Consistency, ACovarianceThatIsNoneIsNeverConsistent) {
 
 TEST(ConsistencyPairs, AreTheSameForTheSameSeedAndWithinTheLimits) {
   ConsistencyOptions options;
-  options.pairs_per_room = 2;
+  options.pairs_per_scene = 2;
   options.width = 160;
   const auto first = consistency_pairs(7, options);
   const auto again = consistency_pairs(7, options);
@@ -110,10 +110,22 @@ TEST(ConsistencyPairs, AreTheSameForTheSameSeedAndWithinTheLimits) {
   EXPECT_FALSE(first[0].truth.isApprox(first[1].truth));
 }
 
+TEST(ConsistencyPairs, EverySceneHasDepthForBoth) {
+  ConsistencyOptions options;
+  options.pairs_per_scene = 1;
+  options.width = 160;
+  for (const TrueScene scene : {TrueScene::kRoom, TrueScene::kTurntable, TrueScene::kCorridor}) {
+    options.scene = scene;
+    const TruePair pair = consistency_pairs(7, options).front();
+    EXPECT_GT(cv::countNonZero(pair.a->depth.counts), 160 * 120 / 10);
+    EXPECT_GT(cv::countNonZero(pair.b->depth.counts), 160 * 120 / 10);
+  }
+}
+
 // The perturbation has to be M_est's from the left, as the covariance is stated.
 TEST(ConsistencyPairs, AnExchangeIsHeldAgainstTheTruth) {
   ConsistencyOptions options;
-  options.pairs_per_room = 1;
+  options.pairs_per_scene = 1;
   options.width = 320;
   options.max_degrees = 5.0;
   options.max_metres = 0.1;

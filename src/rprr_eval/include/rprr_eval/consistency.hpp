@@ -12,12 +12,17 @@
 
 namespace rprr {
 
+/// Where the pairs are: a furnished room, a turntable with nothing round it, or a corridor, along
+/// which depth tells nothing.
+enum class TrueScene { kRoom, kTurntable, kCorridor };
+
 /// Synthetic pairs to hold a protocol's poses and covariances against exact truth: two different
-/// sensors in rooms that nothing was tuned on.
+/// sensors in scenes that nothing was tuned on.
 struct ConsistencyOptions {
-  int seeds = 50;  // rooms
+  TrueScene scene = TrueScene::kRoom;
+  int seeds = 50;  // scenes
   std::uint32_t first_seed = 1001;
-  int pairs_per_room = 4;
+  int pairs_per_scene = 4;
   double max_degrees = 15.0;  // of the motion, about any axis
   double max_metres = 0.3;    // of the motion, in any direction
   int width = 640;            // pixels; the height is 3/4 of it
@@ -29,12 +34,12 @@ struct TruePair {
   Pose truth = Pose::Identity();  // M_ab
 };
 
-/// The pairs of one room; the same for the same seed and options.
+/// The pairs of one scene; the same for the same seed and options.
 std::vector<TruePair> consistency_pairs(std::uint32_t seed, const ConsistencyOptions& options);
 
 /// What an exchange made of a pair.
 struct PoseTrial {
-  std::uint32_t seed = 0;  // of the room
+  std::uint32_t seed = 0;  // of the scene
   int number = 0;          // of the pair in it
   double overlap = 0.0;
   double true_degrees = 0.0, true_metres = 0.0;  // of the motion
