@@ -2,17 +2,14 @@
 #include "rprr_eval/pose_survey.hpp"
 
 #include <algorithm>
-#include <ctime>
 
+#include "rprr_eval/processor_time.hpp"
+#include "rprr_eval/summary.hpp"
 #include "rprr_sensor/motion.hpp"
 #include "rprr_sensor/random.hpp"
 
 namespace rprr {
 namespace {
-
-double processor_ms() {
-  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 std::vector<std::size_t> entries_with_pose(const TumFolder& folder, std::size_t most) {
   std::vector<std::size_t> known;
@@ -74,53 +71,74 @@ std::vector<KnownPair> pick(const std::vector<KnownPair>& bin, std::size_t count
   return shuffled;
 }
 
-void PoseTally::add(const RegistrationResult& result, const Pose& truth, double milliseconds) {
-  const PoseError error = pose_error(result.motion, truth);
-  const bool right = is_right(error);
-  ++pairs;
-  ms.push_back(milliseconds);
-  bytes.push_back(static_cast<double>(result.bytes));
-  if (right) {
-    ++solved;
-    metres.push_back(error.metres);
-    degrees.push_back(error.degrees);
-  }
-  if (!result.accepted) return;
-  ++accepted;
-  accepted_right += right ? 1 : 0;
-  accepted_wrong += is_wrong(error) ? 1 : 0;
+PairRecord make_record(const KnownPair& pair, const RegistrationResult& result, double ms) {
+  PairRecord record;
+  record.pair = pair;
+  record.error = pose_error(result.motion, pair.truth);
+  record.solved = is_right(record.error);
+  record.accepted = result.accepted;
+  record.converged = result.converged;
+  record.bytes = result.bytes;
+  record.ms = ms;
+  return record;
 }
 
-PoseTally& PoseTally::operator+=(const PoseTally& other) {
-  pairs += other.pairs;
-  solved += other.solved;
-  accepted += other.accepted;
-  accepted_right += other.accepted_right;
-  accepted_wrong += other.accepted_wrong;
-  const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  append(metres, other.metres);
-  append(degrees, other.degrees);
-  append(ms, other.ms);
-  append(bytes, other.bytes);
-  wrong_pairs.insert(wrong_pairs.end(), other.wrong_pairs.begin(), other.wrong_pairs.end());
-  return *this;
-}
-
-Result<bool> survey_pair(FrameSource& source, const KnownPair& pair, Registration& method,
-                         PoseTally& tally) {
+Result<PairRecord> survey_pair(FrameSource& source, const KnownPair& pair, Registration& method) {
   const Result<PoseFramePtr> a = source.frame(pair.a);
   if (!a) return Error{a.reason()};
   const Result<PoseFramePtr> b = source.frame(pair.b);
   if (!b) return Error{b.reason()};
-  const double start = processor_ms();
+  const ProcessorTime clock;
   const RegistrationResult result = method.align(**a, **b, Pose::Identity());
-  const double ms = processor_ms() - start;
-  const int wrong_before = tally.accepted_wrong;
-  tally.add(result, pair.truth, ms);
-  if (tally.accepted_wrong > wrong_before) tally.wrong_pairs.push_back(pair);
-  return true;
+  return make_record(pair, result, clock.ms());
+}
+
+void PoseTally::add(const PairRecord& record) {
+  ++pairs;
+  ms.push_back(record.ms);
+  bytes.push_back(static_cast<double>(record.bytes));
+  if (record.solved) {
+    ++solved;
+    metres.push_back(record.error.metres);
+    degrees.push_back(record.error.degrees);
+  }
+  accepted += record.accepted ? 1 : 0;
+  accepted_right += record.accepted_right() ? 1 : 0;
+  if (!record.accepted_wrong()) return;
+  ++accepted_wrong;
+  wrong_pairs.push_back(record.pair);
+}
+
+PoseTally tally_of(const std::vector<PairRecord>& records, std::optional<std::size_t> bin) {
+  PoseTally tally;
+  for (const PairRecord& record : records) {
+    if (!bin || overlap_bin(record.pair.overlap) == *bin) tally.add(record);
+  }
+  return tally;
+}
+
+HeadToHead head_to_head(const std::vector<PairRecord>& first,
+                        const std::vector<PairRecord>& other) {
+  HeadToHead out;
+  std::array<std::vector<double>, 2> metres, degrees, ms;
+  for (std::size_t i = 0; i < std::min(first.size(), other.size()); ++i) {
+    ms[0].push_back(first[i].ms);
+    ms[1].push_back(other[i].ms);
+    if (!first[i].solved || !other[i].solved) {
+      ++(first[i].solved ? out.only_first : other[i].solved ? out.only_other : out.neither);
+      continue;
+    }
+    ++out.both;
+    metres[0].push_back(first[i].error.metres);
+    metres[1].push_back(other[i].error.metres);
+    degrees[0].push_back(first[i].error.degrees);
+    degrees[1].push_back(other[i].error.degrees);
+  }
+  out.first = {median(metres[0]), median(degrees[0])};
+  out.other = {median(metres[1]), median(degrees[1])};
+  const double own = median(ms[0]);
+  if (own > 0.0) out.times_slower = median(ms[1]) / own;
+  return out;
 }
 
 }  // namespace rprr

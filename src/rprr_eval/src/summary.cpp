@@ -59,11 +59,16 @@ void pose_lines(std::string& out, const std::vector<PairResult>& results) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
+double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto it = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), it, values.end());
+  return *it;
+}
+
+double median(std::vector<double> values) {
+  return percentile(std::move(values), 0.5);
 }
 
 std::string summary_table(const std::vector<PairResult>& results, const Profile& profile) {

@@ -76,11 +76,13 @@ TEST_F(PoseSurvey, RunsAMethodOverAPair) {
   ASSERT_TRUE(known) << known.reason();
   ASSERT_FALSE(known->bins[0].empty());
   const auto method = make_icp_ivd();
-  PoseTally tally;
-  const auto done = survey_pair(frames, known->bins[0].front(), *method, tally);
-  ASSERT_TRUE(done) << done.reason();
-  EXPECT_EQ(tally.pairs, 1);
-  EXPECT_EQ(tally.ms.size(), 1u);
+  const KnownPair& pair = known->bins[0].front();
+  const Result<PairRecord> record = survey_pair(frames, pair, *method);
+  ASSERT_TRUE(record) << record.reason();
+  EXPECT_EQ(record->pair.a, pair.a);
+  EXPECT_EQ(record->pair.b, pair.b);
+  EXPECT_EQ(record->solved, is_right(record->error));
+  EXPECT_GE(record->ms, 0.0);
 }
 
 TEST(Pick, IsTheSameForTheSameSeedAndWithoutRepeats) {
@@ -101,23 +103,59 @@ TEST(Pick, IsTheSameForTheSameSeedAndWithoutRepeats) {
   EXPECT_EQ(pick(bin, 80, 7).size(), 50u) << "there are no more";
 }
 
+// A record of a pair whose estimate is so many metres off.
+PairRecord record(double metres, bool accepted, double ms = 1.0, double overlap = 1.0) {
+  RegistrationResult result;
+  result.motion.translation().x() = metres;
+  result.accepted = accepted;
+  return make_record({0, 1, overlap, Pose::Identity()}, result, ms);
+}
+
 TEST(PoseTally, TellsRightFromWrongFromBetween) {
   PoseTally tally;
-  RegistrationResult result;
-  result.accepted = true;
-  for (const double metres : {0.0, 0.12, 0.5}) {
-    result.motion = Pose::Identity();
-    result.motion.translation().x() = metres;
-    tally.add(result, Pose::Identity(), 1.0);
-  }
-  result.motion = Pose::Identity();
-  result.accepted = false;
-  tally.add(result, Pose::Identity(), 1.0);
+  for (const double metres : {0.0, 0.12, 0.5}) tally.add(record(metres, true));
+  tally.add(record(0.0, false));
   EXPECT_EQ(tally.pairs, 4);
   EXPECT_EQ(tally.solved, 2);
   EXPECT_EQ(tally.accepted, 3);
   EXPECT_EQ(tally.accepted_right, 1);
   EXPECT_EQ(tally.accepted_wrong, 1);
+  EXPECT_EQ(tally.wrong_pairs.size(), 1u);
+}
+
+TEST(PoseTally, IsOfOneBinOrOfAll) {
+  const std::vector<PairRecord> records = {record(0.0, true, 1.0, 0.9), record(0.0, true, 1.0, 0.6),
+                                           record(0.5, true, 1.0, 0.6)};
+  EXPECT_EQ(tally_of(records, 0).pairs, 1);
+  EXPECT_EQ(tally_of(records, 1).pairs, 2);
+  EXPECT_EQ(tally_of(records, 1).accepted_wrong, 1);
+  EXPECT_EQ(tally_of(records, 2).pairs, 0);
+  EXPECT_EQ(tally_of(records, std::nullopt).pairs, 3);
+}
+
+TEST(HeadToHead, ComparesErrorsWhereBothSolveAndTimesEverywhere) {
+  const std::vector<PairRecord> first = {record(0.01, true, 10.0), record(0.02, true, 20.0),
+                                         record(0.50, true, 30.0), record(0.50, true, 40.0),
+                                         record(0.01, true, 50.0)};
+  const std::vector<PairRecord> other = {record(0.03, true, 100.0), record(0.50, true, 200.0),
+                                         record(0.04, true, 300.0), record(0.50, true, 400.0),
+                                         record(0.05, false, 500.0)};
+  const HeadToHead duel = head_to_head(first, other);
+  EXPECT_EQ(duel.both, 2) << "also where the method does not vouch for it";
+  EXPECT_EQ(duel.only_first, 1);
+  EXPECT_EQ(duel.only_other, 1);
+  EXPECT_EQ(duel.neither, 1);
+  EXPECT_NEAR(duel.first.metres, 0.01, 1e-12);
+  EXPECT_NEAR(duel.other.metres, 0.03, 1e-12);
+  EXPECT_NEAR(duel.times_slower, 10.0, 1e-12);
+  const HeadToHead turned = head_to_head(other, first);
+  EXPECT_EQ(turned.only_first, duel.only_other);
+  EXPECT_NEAR(turned.times_slower, 0.1, 1e-12);
+}
+
+TEST(HeadToHead, OfNothingIsNothing) {
+  EXPECT_EQ(head_to_head({}, {}).both, 0);
+  EXPECT_EQ(head_to_head({}, {}).times_slower, 0.0);
 }
 
 TEST(OverlapBin, BoundsBelongToTheHigherBin) {

@@ -143,5 +143,18 @@ TEST(SyntheticScene, EveryViewOfTheRoomIsClosedAndTextured) {
   }
 }
 
+// What makes a corridor hard: depth stays as it is along it, colour does not.
+TEST(SyntheticScene, ACorridorLooksTheSameToDepthAlongIt) {
+  const Scene corridor = make_corridor(4);
+  const ExactView here = corridor.render(kCamera, look_along({0.0, 0.1, 1.3}, 0.5, -0.2, 0.0));
+  const ExactView there = corridor.render(kCamera, look_along({0.4, 0.1, 1.3}, 0.5, -0.2, 0.0));
+  cv::Mat difference;
+  cv::absdiff(here.metres, there.metres, difference);
+  difference.setTo(0.0f, here.metres > 5.0f);
+  EXPECT_LT(cv::countNonZero(difference > 0.02f), kCamera.width * kCamera.height / 200);
+  cv::absdiff(here.radiance, there.radiance, difference);
+  EXPECT_GT(cv::mean(difference)[1], 0.01);
+}
+
 }  // namespace
 }  // namespace rprr

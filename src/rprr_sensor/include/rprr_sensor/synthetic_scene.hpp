@@ -87,4 +87,9 @@ class Scene {
 /// and colours. Within 1.2 m of the centre nothing rises above 0.6 m.
 Scene make_room(std::uint32_t seed);
 
+/// A straight corridor along the world's x, 2 m wide and 2.5 m high, floor at z = 0, its ends out
+/// of reach of a depth camera in the middle: depth says nothing of a move along it, only the tiles
+/// and the pictures on both walls do. The seed chooses these.
+Scene make_corridor(std::uint32_t seed);
+
 }  // namespace rprr
