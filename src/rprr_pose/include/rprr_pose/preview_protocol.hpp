@@ -8,6 +8,7 @@
 
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_pose/exchange.hpp"
+#include "rprr_pose/motion_prior.hpp"
 #include "rprr_pose/preview_pose.hpp"
 
 namespace rprr {
@@ -27,8 +28,9 @@ struct PreviewOptions {
   std::uint32_t first_exchange = 1;  // dependent: number of the first exchange, not 0
 };
 
-/// Role of a: finds the pose from b's preview, decides what is sent.
-std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options);
+/// Role of a: finds the pose from b's preview, decides what is sent. prior may be empty.
+std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options,
+                                                     MotionPrior prior = {});
 /// Role of b: sends previews.
 std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& options);
 
