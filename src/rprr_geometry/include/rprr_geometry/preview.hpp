@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "rprr_geometry/block_grid.hpp"
+#include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/wire.hpp"
@@ -26,6 +29,14 @@ struct BlockPreview {
     return inverse_depth.at<std::uint16_t>(row, column) * step;
   }
 };
+
+/// A block that has a depth, as a point.
+struct PreviewPoint {
+  Eigen::Vector3f position;  // of the block's centre, optical frame of its camera, metres
+  cv::Vec3b bgr;
+};
+/// Row by row. Empty if the camera is of another size than the preview.
+std::vector<PreviewPoint> preview_points(const BlockPreview& preview, const Camera& camera);
 
 /// What preview depth is rounded to: about a Kinect's own step in inverse depth (2.85e-3 1/m).
 constexpr double kPreviewStep = 0.004;
