@@ -81,6 +81,18 @@ TEST_F(MotionPriorTest, AWrongProposalDoesNoHarm) {
   EXPECT_GT(pose.iterations, 1) << "found by search";
 }
 
+TEST_F(MotionPriorTest, WithoutEvidenceToSpareTheSearchDecides) {
+  PreviewOptions options = options_for("a", "b");
+  options.warm_evidence = 10.0;  // more than there can be
+  reference =
+      make_preview_reference(options, [](const FrameNames&, const std::optional<KnownMotion>&) {
+        return std::vector<Pose>{kTruth};
+      });
+  const RelativePoseMessage pose = exchange(1000);
+  expect_right(pose);
+  EXPECT_GT(pose.iterations, 1);
+}
+
 TEST_F(MotionPriorTest, AWrongProposalDoesNotHideTheLastAcceptedPose) {
   exchange(1000);
   proposals = {kElsewhere};
