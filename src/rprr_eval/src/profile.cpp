@@ -54,6 +54,7 @@ void read_preview(const YAML::Node& file, PreviewOptions& pose) {
   read(file, "preview_max_luma_chi2", limits.max_luma_chi2);
   read(file, "preview_min_evidence", limits.min_evidence);
   read(file, "preview_min_margin", limits.min_margin);
+  read(file, "preview_warm_evidence", pose.warm_evidence);
 }
 
 // Empty, or why a word is none of the two that a key knows.

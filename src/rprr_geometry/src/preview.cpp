@@ -300,4 +300,20 @@ BlockPreview make_exact_preview(const DepthFrame& depth, const cv::Mat& bgr) {
   return preview_of(depth, bgr, PreviewDepth::kCounts, depth.unit);
 }
 
+std::vector<PreviewPoint> preview_points(const BlockPreview& preview, const Camera& camera) {
+  std::vector<PreviewPoint> points;
+  const BlockGrid& grid = preview.grid;
+  if (camera.width != grid.width || camera.height != grid.height) return points;
+  constexpr double kCentre = 0.5 * (kBlockSide - 1);
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      if (!preview.valid(column, row)) continue;
+      const Eigen::Vector3d point = camera.unproject(
+          kBlockSide * column + kCentre, kBlockSide * row + kCentre, preview.metres(grid.index(column, row)));
+      points.push_back({point.cast<float>(), preview.bgr.at<cv::Vec3b>(row, column)});
+    }
+  }
+  return points;
+}
+
 }  // namespace rprr

@@ -170,5 +170,26 @@ TEST(Preview, WhatDoesNotFitTogetherIsNotWellFormed) {
   EXPECT_FALSE(bad.well_formed());
 }
 
+TEST(Preview, PointsLieAtTheBlocksCentres) {
+  const PreviewScene scene;
+  const Camera camera{640, 480, 525.0, 520.0, 319.5, 239.5};
+  const BlockPreview preview = make_preview(scene.depth, scene.bgr, 0.001);
+  const std::vector<PreviewPoint> points = preview_points(preview, camera);
+  EXPECT_EQ(points.size(), static_cast<std::size_t>(cv::countNonZero(preview.depth)));
+  ASSERT_TRUE(preview.valid(0, 0) && preview.valid(1, 0));
+  const PreviewPoint& second = points[1];
+  const double z = 1.0 / preview.q(1, 0);
+  EXPECT_NEAR(second.position.x(), (11.5 - 319.5) / 525.0 * z, 1e-4);
+  EXPECT_NEAR(second.position.y(), (3.5 - 239.5) / 520.0 * z, 1e-4);
+  EXPECT_NEAR(second.position.z(), z, 1e-4);
+  EXPECT_EQ(second.bgr, preview.bgr.at<cv::Vec3b>(0, 1));
+}
+
+TEST(Preview, ThereAreNoPointsForACameraOfAnotherSize) {
+  const PreviewScene scene;
+  const BlockPreview preview = make_preview(scene.depth, scene.bgr);
+  EXPECT_TRUE(preview_points(preview, {320, 240, 262, 262, 159.5, 119.5}).empty());
+}
+
 }  // namespace
 }  // namespace rprr

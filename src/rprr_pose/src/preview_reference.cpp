@@ -10,10 +10,13 @@
 namespace rprr {
 namespace {
 
+constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
+
 class PreviewReference final : public ExchangeRole {
  public:
-  explicit PreviewReference(PreviewOptions options)
+  PreviewReference(PreviewOptions options, MotionPrior prior)
       : options_(std::move(options)),
+        prior_(std::move(prior)),
         frames_(options_.frames_kept, options_.max_stamp_difference),
         estimator_(options_.search) {}
 
@@ -51,7 +54,8 @@ class PreviewReference final : public ExchangeRole {
     pose.exchange = message.exchange;
     pose.status = PoseStatus::kMalformed;
     Result<PreviewContent> content = decode_preview_content(message.data);
-    const std::string wrong = content ? estimate(*frame, *content, pose) : content.reason();
+    const std::string wrong =
+        content ? estimate(*frame, message, *content, pose) : content.reason();
     if (!wrong.empty()) out.problems.push_back(options_.peer + ": " + wrong);
     if (content && content->known_peer_hash != camera_hash(frame->camera)) {
       ByteWriter writer;
@@ -75,8 +79,8 @@ class PreviewReference final : public ExchangeRole {
   }
 
   // Fills in the pose; empty, or what is wrong with the message.
-  std::string estimate(const PoseFrame& frame, const PreviewContent& content,
-                       RelativePoseMessage& pose) {
+  std::string estimate(const PoseFrame& frame, const PreviewMessage& message,
+                       const PreviewContent& content, RelativePoseMessage& pose) {
     if (content.camera) peer_camera_ = *content.camera;
     if (!peer_camera_ || camera_hash(*peer_camera_) != content.camera_hash) {
       peer_camera_.reset();
@@ -88,9 +92,12 @@ class PreviewReference final : public ExchangeRole {
         preview->grid.height != peer_camera_->height) {
       return "preview of another size than its camera";
     }
-    std::vector<Pose> warm;
-    if (last_accepted_) warm.push_back(*last_accepted_);
-    const PreviewPose found = estimator_.estimate(frame, *preview, *peer_camera_, warm);
+    const FrameNames frames{frame.stamp, frame.frame_id, message.stamp, message.frame_id};
+    PreviewPose found = estimator_.estimate(frame, *preview, *peer_camera_, worth_trying(frames));
+    if (!found.searched &&
+        found.evidence < options_.search.limits.min_evidence + options_.warm_evidence) {
+      found = estimator_.estimate(frame, *preview, *peer_camera_, {});
+    }
     pose.status = found.status;
     pose.motion = found.motion;
     pose.covariance = found.covariance;
@@ -99,9 +106,27 @@ class PreviewReference final : public ExchangeRole {
     if (found.sums.geometry > 0) {
       pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
     }
-    last_accepted_.reset();
-    if (found.status == PoseStatus::kAccepted) last_accepted_ = found.motion;
+    last_is_fresh_ = found.status == PoseStatus::kAccepted;
+    if (last_is_fresh_) last_accepted_ = KnownMotion{frames, found.motion};
     return {};
+  }
+
+  // What the prior proposes comes first: it knows how the robots moved since the last pose. That
+  // itself is worth trying only while exchanges succeed.
+  std::vector<Pose> worth_trying(const FrameNames& frames) const {
+    std::vector<Pose> poses;
+    if (prior_) poses = prior_(frames, last_accepted_);
+    poses.erase(std::remove_if(poses.begin(), poses.end(),
+                               [](const Pose& pose) { return !is_rigid(pose); }),
+                poses.end());
+    if (poses.size() > kMostProposals) poses.resize(kMostProposals);
+    const auto is_last = [this](const Pose& pose) {
+      return pose.isApprox(last_accepted_->motion, 1e-6);
+    };
+    if (last_is_fresh_ && std::none_of(poses.begin(), poses.end(), is_last)) {
+      poses.push_back(last_accepted_->motion);
+    }
+    return poses;
   }
 
   void send_whole(const PoseFramePtr& frame, std::uint32_t exchange, RoleOutput& out) const {
@@ -114,10 +139,12 @@ class PreviewReference final : public ExchangeRole {
   }
 
   const PreviewOptions options_;
+  const MotionPrior prior_;
   RecentFrames frames_;
   PreviewPoseEstimator estimator_;
   std::optional<Camera> peer_camera_;
-  std::optional<Pose> last_accepted_;
+  std::optional<KnownMotion> last_accepted_;
+  bool last_is_fresh_ = false;           // the last exchange was accepted
   std::optional<PreviewMessage> early_;  // a preview whose frame is not here yet
   Stamp early_deadline_ = 0;
   std::uint32_t last_answered_ = 0;
@@ -125,8 +152,9 @@ class PreviewReference final : public ExchangeRole {
 
 }  // namespace
 
-std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options) {
-  return std::make_unique<PreviewReference>(options);
+std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options,
+                                                     MotionPrior prior) {
+  return std::make_unique<PreviewReference>(options, std::move(prior));
 }
 
 }  // namespace rprr

@@ -2,39 +2,21 @@
 #include "pose_broadcaster.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
+#include <tf2/exceptions.h>
 
 #include "rprr_geometry_ros/conversions.hpp"
+#include "transforms.hpp"
 
 namespace rprr {
-namespace {
-
-Pose from_transform(const geometry_msgs::Transform& transform) {
-  return make_pose(
-      {transform.translation.x, transform.translation.y, transform.translation.z},
-      {transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w});
-}
-
-geometry_msgs::Transform to_transform(const Pose& pose) {
-  geometry_msgs::Transform transform;
-  const Eigen::Quaterniond q(pose.linear());
-  transform.translation.x = pose.translation().x();
-  transform.translation.y = pose.translation().y();
-  transform.translation.z = pose.translation().z();
-  transform.rotation.x = q.x();
-  transform.rotation.y = q.y();
-  transform.rotation.z = q.z();
-  transform.rotation.w = q.w();
-  return transform;
-}
-
-}  // namespace
-
-PoseBroadcaster::PoseBroadcaster(const ros::NodeHandle& private_nh)
+PoseBroadcaster::PoseBroadcaster(const ros::NodeHandle& private_nh, const tf2::BufferCore* buffer)
     : publish_(private_nh.param("publish_tf", true)),
-      root_(private_nh.param<std::string>("tf_target", "own") == "root") {
-  if (!publish_ || !root_) return;
-  buffer_ = std::make_unique<tf2_ros::Buffer>();
-  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_);
+      root_(publishes_root(private_nh)),
+      buffer_(buffer) {
+}
+
+bool PoseBroadcaster::publishes_root(const ros::NodeHandle& private_nh) {
+  return private_nh.param("publish_tf", true) &&
+         private_nh.param<std::string>("tf_target", "own") == "root";
 }
 
 void PoseBroadcaster::send(const RelativePoseMessage& pose, Health& health) {

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <tf2_ros/buffer.h>
+#include <tf2/buffer_core.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
-#include <memory>
 #include <string>
 
 #include "rprr_geometry_ros/health.hpp"
@@ -19,7 +17,9 @@ namespace rprr {
 /// that both robots hang together. tf2 stores b's pose in a, the inverse of M_ab.
 class PoseBroadcaster {
  public:
-  explicit PoseBroadcaster(const ros::NodeHandle& private_nh);
+  /// buffer: needed, and must outlive this, if publishes_root().
+  PoseBroadcaster(const ros::NodeHandle& private_nh, const tf2::BufferCore* buffer);
+  static bool publishes_root(const ros::NodeHandle& private_nh);
   /// health hears of missing tf.
   void send(const RelativePoseMessage& pose, Health& health);
 
@@ -29,8 +29,7 @@ class PoseBroadcaster {
   bool publish_;
   bool root_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::unique_ptr<tf2_ros::Buffer> buffer_;  // only for the root
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  const tf2::BufferCore* buffer_;  // only for the root
 };
 
 }  // namespace rprr

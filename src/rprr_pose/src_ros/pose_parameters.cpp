@@ -3,6 +3,8 @@
 
 #include <ros/console.h>
 
+#include "pose_broadcaster.hpp"
+
 namespace rprr {
 
 SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std::string& robot,
@@ -60,9 +62,27 @@ PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std
   private_nh.param("preview_max_luma_chi2", limits.max_luma_chi2, limits.max_luma_chi2);
   private_nh.param("preview_min_evidence", limits.min_evidence, limits.min_evidence);
   private_nh.param("preview_min_margin", limits.min_margin, limits.min_margin);
+  private_nh.param("preview_warm_evidence", options.warm_evidence, options.warm_evidence);
   seconds("step_timeout", options.step_timeout);
   seconds("min_period", options.min_period);
   seconds("max_frame_difference", options.max_stamp_difference);
+  return options;
+}
+
+std::optional<TfPriorOptions> read_tf_prior_options(const ros::NodeHandle& private_nh,
+                                                    const std::string& robot,
+                                                    const std::string& peer) {
+  if (!private_nh.param("tf_prior", true)) return std::nullopt;
+  TfPriorOptions options;
+  options.robot = robot;
+  options.peer = peer;
+  const auto frame = [&private_nh](const char* name) {
+    const auto given = private_nh.param<std::string>(name, "auto");
+    return given == "auto" ? std::string() : given;
+  };
+  options.fixed_frame = frame("tf_prior_fixed_frame");
+  options.odom_frame = frame("tf_prior_odom_frame");
+  options.publishes_root = PoseBroadcaster::publishes_root(private_nh);
   return options;
 }
 

@@ -3,10 +3,12 @@
 
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <string>
 
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
+#include "tf_prior.hpp"
 
 namespace rprr {
 
@@ -17,6 +19,11 @@ SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std
 /// Likewise, for the preview protocol.
 PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std::string& robot,
                                     const std::string& peer);
+
+/// What tf may propose to a as first poses towards peer; none if ~tf_prior is false.
+std::optional<TfPriorOptions> read_tf_prior_options(const ros::NodeHandle& private_nh,
+                                                    const std::string& robot,
+                                                    const std::string& peer);
 
 /// ~protocol: "preview" (default) or "samples". Another word is said and becomes the default.
 bool uses_previews(const ros::NodeHandle& private_nh);

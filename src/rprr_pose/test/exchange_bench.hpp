@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "rprr_geometry_ros/conversions.hpp"
-#include "synthetic_views.hpp"
+#include "textured_views.hpp"
 
 namespace rprr {
 
@@ -50,6 +50,7 @@ class CameraOfRobot {
  public:
   CameraOfRobot(ros::NodeHandle& nh, const std::string& name, const Pose& m_ab)
       : depth(corner_view(m_ab, true)),
+        bgr(textured_frame(m_ab, 0, name)->bgr),
         name_(name),
         rgb_(nh.advertise<sensor_msgs::Image>("/" + name + "/camera/rgb/image_rect_color", 5)),
         info_(nh.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera/rgb/camera_info", 5)),
@@ -70,8 +71,7 @@ class CameraOfRobot {
     std_msgs::Header header;
     header.stamp = stamp;
     header.frame_id = "/" + optical_frame(name_);  // as old bags have it
-    return {info_from_camera(kTestCamera, header),
-            to_image(header, "bgr8", cv::Mat(depth.counts.size(), CV_8UC3, cv::Scalar(1, 2, 3))),
+    return {info_from_camera(kTestCamera, header), to_image(header, "bgr8", bgr),
             to_depth_image(header, depth)};
   }
   void show(const Frame& frame, bool with_info = true) {
@@ -83,6 +83,7 @@ class CameraOfRobot {
   void show(ros::Time stamp) { show(frame(stamp)); }
 
   const DepthFrame depth;
+  const cv::Mat bgr;
 
  private:
   std::string name_;
@@ -151,9 +152,10 @@ class ExchangeNodes : public testing::Test {
     return event != nullptr && event->action == ExchangeEvent::SEND_SPARSE && pose != nullptr &&
            pose->status == RelativePose::ACCEPTED && is_right(*pose);
   }
-  static bool is_right(const RelativePose& pose) {
+  bool is_right(const RelativePose& pose) const {
     const Pose motion = pose_from_fields(pose.translation, pose.rotation);
-    return translation_error(motion, kTruth) < 0.01 && rotation_error(motion, kTruth) < 0.3;
+    return translation_error(motion, truth) < metres_allowed &&
+           rotation_error(motion, truth) < degrees_allowed;
   }
   /// After a disturbance the first exchange may end early: robots tell each other their cameras
   /// again.
@@ -193,6 +195,9 @@ class ExchangeNodes : public testing::Test {
   }
 
   static inline int tests = 0;
+  Pose truth = kTruth;
+  double metres_allowed = 0.01;
+  double degrees_allowed = 0.3;
   ros::NodeHandle nh;
   CameraOfRobot a{nh, "eyebug_a", Pose::Identity()};
   CameraOfRobot b{nh, "eyebug_b", kTruth};

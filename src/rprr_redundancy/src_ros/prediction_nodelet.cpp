@@ -19,15 +19,27 @@
 #include "rprr_geometry/preview.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/point_cloud.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
 
 namespace rprr {
+namespace {
+
+sensor_msgs::PointCloud2 preview_cloud(const std_msgs::Header& header,
+                                       const std::vector<PreviewPoint>& points) {
+  sensor_msgs::PointCloud2 cloud = make_cloud(header, static_cast<std::uint32_t>(points.size()), 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    set_point(cloud, i, points[i].position, points[i].bgr.val);
+  }
+  return cloud;
+}
+
+}  // namespace
 
 /// The reference robot's side: hands its frames of exchanges to the encoder, once each, and tells
-/// dependents which blocks to send (B_p, or with a
-/// preview the whole decision).
+/// dependents which blocks to send (B_p, or with a preview the whole decision).
 class PredictionNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -46,6 +58,7 @@ class PredictionNodelet : public nodelet::Nodelet {
     const std::string prefix = "/" + robot_ + "/rprr/";
     outgoing_ = nh.advertise<rprr_msgs::OutgoingFrame>(prefix + "outgoing", 4);
     picture_ = nh.advertise<sensor_msgs::Image>(prefix + "decision", 2);
+    points_ = nh.advertise<sensor_msgs::PointCloud2>(prefix + "preview_points", 2);
     prediction_ = nh.advertise<rprr_msgs::BlockMask>(prefix + "prediction", 4);
     worker_ = std::make_unique<Worker>(8);
     matcher_ = std::make_unique<FrameMatcher>(
@@ -123,12 +136,22 @@ class PredictionNodelet : public nodelet::Nodelet {
     report(decision);
     health_->show("last prediction, ms",
                   std::to_string((ros::WallTime::now() - start).toSec() * 1e3));
-    if (decision.from_preview && picture_.getNumSubscribers() > 0) {
-      std_msgs::Header header;
-      header.stamp = event.pose.dependent_stamp;
+    if (decision.from_preview) show(event, *camera, *preview, decision);
+  }
+
+  // For people, and only if somebody looks. Both are images of b, so they lie in b's frames.
+  void show(const rprr_msgs::ExchangeEvent& event, const Camera& camera,
+            const BlockPreview& preview, const BlockDecision& decision) {
+    std_msgs::Header header;
+    header.stamp = event.pose.dependent_stamp;
+    if (picture_.getNumSubscribers() > 0) {
       header.frame_id = optical_frame(event.peer);
       picture_.publish(to_image(header, sensor_msgs::image_encodings::BGR8,
-                                decision_picture(*preview, decision.send)));
+                                decision_picture(preview, decision.send)));
+    }
+    if (points_.getNumSubscribers() > 0) {
+      header.frame_id = rebuilt_frame(event.peer);
+      points_.publish(preview_cloud(header, preview_points(preview, camera)));
     }
   }
 
@@ -160,6 +183,7 @@ class PredictionNodelet : public nodelet::Nodelet {
   ros::Publisher outgoing_;
   ros::Publisher prediction_;
   ros::Publisher picture_;
+  ros::Publisher points_;
   RecentStamps sent_;
   Decider decider_;  // the worker's
   std::unique_ptr<Worker> worker_;

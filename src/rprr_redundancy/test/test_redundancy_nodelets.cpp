@@ -7,13 +7,18 @@
 #include <rprr_msgs/BlockMask.h>
 #include <rprr_msgs/ExchangeEvent.h>
 #include <rprr_msgs/OutgoingFrame.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <cstring>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_geometry/preview.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/prediction.hpp"
 #include "rprr_redundancy/validation.hpp"
@@ -33,6 +38,31 @@ Pose m_ab() {
   Pose pose = Pose::Identity();
   pose.translation().x() = 0.3;
   return pose;
+}
+
+// What a sees, and b 21 pixels further to the right: 0.3 m at 2 m.
+cv::Mat colours_of(const std::string& robot) {
+  const int shift = robot == "eyebug_b" ? 21 : 0;
+  cv::Mat bgr(120, 160, CV_8UC3);
+  for (int v = 0; v < bgr.rows; ++v) {
+    for (int u = 0; u < bgr.cols; ++u) {
+      bgr.at<cv::Vec3b>(v, u) = cv::Vec3b(static_cast<std::uint8_t>(60 + u - shift),
+                                          static_cast<std::uint8_t>(80 + v), 100);
+    }
+  }
+  return bgr;
+}
+
+// Blocks of b's preview in which it differs from what a predicts.
+const cv::Rect kNearer(80, 40, 16, 16);
+const cv::Rect kPainted(112, 80, 16, 16);
+
+Bytes preview_of_b() {
+  DepthFrame depth{depth_of("eyebug_b").counts.clone(), 0.001};
+  cv::Mat bgr = colours_of("eyebug_b");
+  depth.counts(kNearer).setTo(1000);
+  bgr(kPainted).setTo(cv::Scalar(20, 20, 250));
+  return encode_preview(make_preview(depth, bgr), 90);
 }
 
 template <typename T>
@@ -68,7 +98,7 @@ class Robot {
     header.frame_id = "/" + optical_frame(name_);
     info_.publish(info_from_camera(kCamera, header));
     ros::Duration(0.05).sleep();  // info comes over another connection
-    rgb_.publish(to_image(header, "bgr8", cv::Mat(120, 160, CV_8UC3, cv::Scalar(1, 2, 3))));
+    rgb_.publish(to_image(header, "bgr8", colours_of(name_)));
     depth_.publish(to_depth_image(header, depth_of(name_)));
   }
   void publish(const rprr_msgs::ExchangeEvent& event) { events_.publish(event); }
@@ -109,8 +139,8 @@ class Redundancy : public testing::Test {
   void SetUp() override {
     ASSERT_TRUE(wait([this] {
       return a.connected() && b.connected() && a_out.connected() && b_out.connected() &&
-             prediction.connected() && mask.connected() && validation.connected() &&
-             radio.getNumSubscribers() > 0;
+             prediction.connected() && decision.connected() && points.connected() &&
+             mask.connected() && validation.connected() && radio.getNumSubscribers() > 0;
     })) << "the nodelets do not listen on the fixed topics";
     a_stamp = ros::Time(1000 + 10 * ++tests, 123456789);
     b_stamp = a_stamp + ros::Duration(1);
@@ -135,6 +165,8 @@ class Redundancy : public testing::Test {
   Inbox<rprr_msgs::OutgoingFrame> a_out{nh, "/eyebug_a/rprr/outgoing"};
   Inbox<rprr_msgs::OutgoingFrame> b_out{nh, "/eyebug_b/rprr/outgoing"};
   Inbox<rprr_msgs::BlockMask> prediction{nh, "/eyebug_a/rprr/prediction"};
+  Inbox<sensor_msgs::Image> decision{nh, "/eyebug_a/rprr/decision"};
+  Inbox<sensor_msgs::PointCloud2> points{nh, "/eyebug_a/rprr/preview_points"};
   Inbox<rprr_msgs::BlockMask> validation{nh, "/eyebug_b/rprr/validation"};
   Inbox<sensor_msgs::Image> mask{nh, "/eyebug_b/rprr/mask"};
   Inbox<sensor_msgs::Image> rgb{nh, "/eyebug_b/rprr/sparse/rgb"};
@@ -197,6 +229,88 @@ TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
   const auto shown = decode_mask(validation.messages[0]->data, grid);
   ASSERT_TRUE(shown);
   EXPECT_TRUE(*shown == validated);
+}
+
+TEST_F(Redundancy, APreviewDecidesColourAndDepthOfEveryBlock) {
+  rprr_msgs::ExchangeEvent event = sparse(a_stamp, "eyebug_b", 21, a_stamp, b_stamp);
+  event.peer_preview = preview_of_b();
+  a.publish(event);
+  b.publish(sparse(b_stamp, "eyebug_a", 21, a_stamp, b_stamp));
+  ASSERT_TRUE(wait([this] {
+    return !prediction.messages.empty() && !decision.messages.empty() && !points.messages.empty() &&
+           !b_out.messages.empty();
+  }));
+
+  const BlockGrid grid(160, 120);
+  const Camera camera = rounded_for_wire(kCamera);
+  const auto preview = decode_preview(event.peer_preview);
+  ASSERT_TRUE(preview) << preview.reason();
+  const BlockDecision expected = Decider().decide(depth_of("eyebug_a"), colours_of("eyebug_a"),
+                                                  camera, camera, m_ab(), &*preview);
+  ASSERT_TRUE(expected.from_preview);
+  const auto sent = decode_mask_pair(prediction.messages[0]->data, grid);
+  ASSERT_TRUE(sent) << sent.reason();
+  EXPECT_TRUE(sent->colour == expected.send.colour);
+  EXPECT_TRUE(sent->depth == expected.send.depth);
+  const int nearer = grid.index_of_pixel(kNearer.x, kNearer.y);
+  const int painted = grid.index_of_pixel(kPainted.x, kPainted.y);
+  const int alike = grid.index_of_pixel(64, 64);
+  EXPECT_TRUE(sent->depth[nearer]) << "b sees another surface";
+  EXPECT_TRUE(sent->colour[painted] && !sent->depth[painted]) << "the same surface, painted";
+  EXPECT_FALSE(sent->colour[alike] || sent->depth[alike]);
+
+  // For people: the preview's colours, tinted.
+  const sensor_msgs::Image& picture = *decision.messages[0];
+  EXPECT_EQ(picture.header.stamp, b_stamp);
+  EXPECT_EQ(picture.encoding, "bgr8");
+  const auto shown = bgr_from_image(picture);
+  ASSERT_TRUE(shown) << shown.reason();
+  const cv::Mat drawn = decision_picture(*preview, expected.send);
+  ASSERT_EQ(shown->size(), drawn.size());
+  EXPECT_EQ(cv::norm(*shown, drawn, cv::NORM_INF), 0.0);
+  const auto block_colour = [&](int block) {
+    return shown->at<cv::Vec3b>(grid.rect(block).y, grid.rect(block).x);
+  };
+  EXPECT_GT(block_colour(nearer)[2], block_colour(alike)[2] + 50) << "red: colour and depth";
+  EXPECT_GT(block_colour(painted)[0], 120) << "blue: colour only";
+
+  const sensor_msgs::PointCloud2& cloud = *points.messages[0];
+  EXPECT_EQ(cloud.header.frame_id, "eyebug_b_rprr_optical_frame");
+  EXPECT_EQ(cloud.header.stamp, b_stamp);
+  const std::vector<PreviewPoint> known = preview_points(*preview, camera);
+  ASSERT_EQ(cloud.width * cloud.height, known.size());
+  float xyz[3];
+  std::memcpy(xyz, &cloud.data[cloud.point_step * 5], sizeof(xyz));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(xyz[i], known[5].position[i]);
+
+  // b adds what it alone knows to both masks.
+  const BlockMask validated = Validator().validate(depth_of("eyebug_b"), camera, camera, m_ab());
+  const rprr_msgs::OutgoingFrame& out = *b_out.messages[0];
+  ASSERT_TRUE(out.sparse);
+  const auto colour_blocks = decode_mask(out.mask, grid);
+  const auto depth_blocks = decode_mask(out.depth_mask, grid);
+  ASSERT_TRUE(colour_blocks && depth_blocks);
+  BlockMask all_colour = expected.send.colour;
+  BlockMask all_depth = expected.send.depth;
+  all_colour |= validated;
+  all_depth |= validated;
+  EXPECT_TRUE(*colour_blocks == all_colour);
+  EXPECT_TRUE(*depth_blocks == all_depth);
+}
+
+TEST_F(Redundancy, APreviewThatIsNoneIsPassedOver) {
+  rprr_msgs::ExchangeEvent event = sparse(a_stamp, "eyebug_b", 22, a_stamp, b_stamp);
+  event.peer_preview = preview_of_b();
+  event.peer_preview.resize(event.peer_preview.size() / 2);
+  a.publish(event);
+  ASSERT_TRUE(wait([this] { return !prediction.messages.empty(); }));
+  const Camera camera = rounded_for_wire(kCamera);
+  const auto sent = decode_mask(prediction.messages[0]->data, BlockGrid(160, 120));
+  ASSERT_TRUE(sent) << sent.reason();
+  EXPECT_TRUE(*sent == Predictor().predict(depth_of("eyebug_a"), camera, camera, m_ab()))
+      << "the paper's B_p";
+  wait([] { return false; }, 0.2);
+  EXPECT_TRUE(decision.messages.empty() && points.messages.empty()) << "there is nothing to show";
 }
 
 TEST_F(Redundancy, SilenceOfTheReferenceSendsTheFrameWhole) {

@@ -3,32 +3,15 @@
 
 #include <sensor_msgs/image_encodings.h>
 
-#include <cstring>
 #include <limits>
+
+#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_geometry_ros/point_cloud.hpp"
+#include "rprr_station/frustum.hpp"
 
 #include "rprr_geometry_ros/conversions.hpp"
 
 namespace rprr {
-namespace {
-
-sensor_msgs::PointField point_field(const std::string& name, std::uint32_t offset) {
-  sensor_msgs::PointField field;
-  field.name = name;
-  field.offset = offset;
-  field.datatype = sensor_msgs::PointField::FLOAT32;
-  field.count = 1;
-  return field;
-}
-
-bool little_endian() {
-  const std::uint16_t one = 1;
-  std::uint8_t first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
-}
-
-}  // namespace
-
 std_msgs::Header header_of(const RebuiltFrame& frame) {
   std_msgs::Header header;
   header.stamp = to_time(frame.stamp);
@@ -52,32 +35,17 @@ sensor_msgs::Image depth_message(const RebuiltFrame& frame, const std_msgs::Head
 }
 
 sensor_msgs::PointCloud2 cloud_message(const RebuiltFrame& frame, const std_msgs::Header& header) {
-  sensor_msgs::PointCloud2 cloud;
-  cloud.header = header;
-  cloud.width = static_cast<std::uint32_t>(frame.camera.width);
-  cloud.height = static_cast<std::uint32_t>(frame.camera.height);
-  cloud.fields = {point_field("x", 0), point_field("y", 4), point_field("z", 8),
-                  point_field("rgb", 12)};
-  cloud.is_bigendian = !little_endian();
-  cloud.point_step = 16;
-  cloud.row_step = cloud.point_step * cloud.width;
-  cloud.is_dense = false;
-  cloud.data.resize(static_cast<std::size_t>(cloud.row_step) * cloud.height);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  std::uint8_t* out = cloud.data.data();
+  sensor_msgs::PointCloud2 cloud =
+      make_cloud(header, static_cast<std::uint32_t>(frame.camera.width),
+                 static_cast<std::uint32_t>(frame.camera.height));
+  const Eigen::Vector3f none = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  std::size_t index = 0;
   for (int v = 0; v < frame.camera.height; ++v) {
     const auto* colour = frame.bgr.ptr<std::uint8_t>(v);
-    for (int u = 0; u < frame.camera.width; ++u, colour += 3, out += cloud.point_step) {
-      float xyz[3] = {kNone, kNone, kNone};
+    for (int u = 0; u < frame.camera.width; ++u, colour += 3, ++index) {
       const double z = frame.depth.metres(u, v);
-      if (z > 0) {
-        const Eigen::Vector3f point = frame.camera.unproject(u, v, z).cast<float>();
-        for (int i = 0; i < 3; ++i) xyz[i] = point[i];
-      }
-      const std::uint32_t rgb = static_cast<std::uint32_t>(colour[2]) << 16 |
-                                static_cast<std::uint32_t>(colour[1]) << 8 | colour[0];
-      std::memcpy(out, xyz, sizeof(xyz));
-      std::memcpy(out + 12, &rgb, sizeof(rgb));
+      const bool known = z > 0;
+      set_point(cloud, index, known ? frame.camera.unproject(u, v, z).cast<float>() : none, colour);
     }
   }
   return cloud;
@@ -123,6 +91,34 @@ rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
   statistics.share_received = static_cast<float>(frame.share_received);
   statistics.share_predicted = static_cast<float>(frame.share_predicted);
   return statistics;
+}
+
+visualization_msgs::Marker frustum_message(const RebuiltFrame& frame,
+                                           const std_msgs::Header& header, std::size_t number,
+                                           double length) {
+  // Told apart by those who see red and green alike too.
+  constexpr float kColours[][3] = {
+      {1.0f, 0.65f, 0.0f}, {0.25f, 0.7f, 1.0f}, {0.0f, 0.8f, 0.5f}, {0.95f, 0.9f, 0.25f}};
+  visualization_msgs::Marker marker;
+  marker.header = header;
+  marker.ns = frame.robot;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = 0.02 * length;  // width of the lines
+  const float* colour = kColours[number % (sizeof(kColours) / sizeof(kColours[0]))];
+  marker.color.r = colour[0];
+  marker.color.g = colour[1];
+  marker.color.b = colour[2];
+  marker.color.a = 1.0f;
+  for (const Eigen::Vector3d& end : frustum_lines(frame.camera, length)) {
+    geometry_msgs::Point point;
+    point.x = end.x();
+    point.y = end.y();
+    point.z = end.z();
+    marker.points.push_back(point);
+  }
+  return marker;
 }
 
 }  // namespace rprr

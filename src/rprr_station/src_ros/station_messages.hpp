@@ -5,6 +5,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
 
 #include <string>
 
@@ -23,6 +24,12 @@ sensor_msgs::Image depth_message(const RebuiltFrame& frame, const std_msgs::Head
 
 /// Organised, x y z rgb, NaN where there is no depth.
 sensor_msgs::PointCloud2 cloud_message(const RebuiltFrame& frame, const std_msgs::Header& header);
+
+/// The view's camera as a pyramid of lines, length metres long, in the view's frame. number chooses
+/// the colour.
+visualization_msgs::Marker frustum_message(const RebuiltFrame& frame,
+                                           const std_msgs::Header& header, std::size_t number,
+                                           double length);
 
 /// All but latency_ms, which needs a clock.
 rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,

@@ -7,6 +7,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/image_encodings.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
@@ -32,6 +33,7 @@ namespace rprr {
 class StationNodelet : public nodelet::Nodelet {
  private:
   struct Robot {
+    std::size_t number = 0;  // in ~robots
     ros::Subscriber encoded;
     ros::Publisher rgb;
     ros::Publisher info;
@@ -53,6 +55,7 @@ class StationNodelet : public nodelet::Nodelet {
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
     receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
+    frusta_ = nh.advertise<visualization_msgs::MarkerArray>("/station/frusta", 20);
     station_ = std::make_unique<Station>(parameters_.station, make_isolated_colour_decoder());
     // One job for every message that waits, one for the tick: no job is ever dropped.
     worker_ = std::make_unique<Worker>(names.size() * parameters_.queue + 1);
@@ -68,6 +71,7 @@ class StationNodelet : public nodelet::Nodelet {
   void advertise(ros::NodeHandle& nh, const std::string& name) {
     const std::string prefix = "/station/" + name + "/";
     Robot& robot = robots_[name];
+    robot.number = robots_.size() - 1;
     robot.rgb = nh.advertise<sensor_msgs::Image>(prefix + "rgb/image_rect_color", 4);
     robot.info = nh.advertise<sensor_msgs::CameraInfo>(prefix + "rgb/camera_info", 4);
     robot.depth = nh.advertise<sensor_msgs::Image>(prefix + "depth_registered/image_rect", 4);
@@ -165,6 +169,12 @@ class StationNodelet : public nodelet::Nodelet {
       robot.provenance.publish(boost::make_shared<sensor_msgs::Image>(
           to_image(header, encodings::MONO8, frame.provenance)));
     }
+    if (frusta_.getNumSubscribers() > 0) {
+      visualization_msgs::MarkerArray frusta;
+      frusta.markers.push_back(
+          frustum_message(frame, header, robot.number, parameters_.frustum_length));
+      frusta_.publish(frusta);
+    }
     rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
     statistics.latency_ms = static_cast<float>((ros::Time::now() - header.stamp).toSec() * 1e3);
     statistics_.publish(statistics);
@@ -185,6 +195,7 @@ class StationNodelet : public nodelet::Nodelet {
   std::unique_ptr<Health> health_;
   ros::Publisher statistics_;
   ros::Publisher receipts_;
+  ros::Publisher frusta_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
   std::unique_ptr<Station> station_;  // the worker's

@@ -82,6 +82,7 @@ Result<StationParameters> read_station_parameters(const ros::NodeHandle& nh) {
   station.largest_message = at_least(nh, "largest_message", 8 << 20, 1);
   station.largest_image = at_least(nh, "largest_image", 1920 * 1200, 1);
   station.energy.bytes_per_second = nh.param("radio_bytes_per_second", 1e6);
+  parameters.frustum_length = std::max(nh.param("frustum_length", 0.5), 0.01);
   parameters.queue = at_least(nh, "queue", 4, 1);
   return parameters;
 }

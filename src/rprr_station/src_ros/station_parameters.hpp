@@ -12,7 +12,8 @@ namespace rprr {
 struct StationParameters {
   StationOptions station;
   DepthEncoding depth_encoding = DepthEncoding::kAuto;
-  std::size_t queue = 4;  // messages per robot that may wait for the decoder
+  double frustum_length = 0.5;  // metres
+  std::size_t queue = 4;        // messages per robot that may wait for the decoder
 };
 
 /// The private parameters of config/station.yaml. Errors name the parameter and what it may be.

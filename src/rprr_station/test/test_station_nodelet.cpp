@@ -10,6 +10,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cmath>
 #include <cstring>
@@ -76,7 +77,8 @@ class StationNodelet : public testing::Test {
     ASSERT_TRUE(wait([this] {
       return a.getNumSubscribers() > 0 && b.getNumSubscribers() > 0 && rgb.connected() &&
              info.connected() && depth.connected() && points.connected() &&
-             provenance.connected() && statistics.connected() && receipts.connected();
+             provenance.connected() && frusta.connected() && statistics.connected() &&
+             receipts.connected();
     })) << "the station does not use the fixed topics";
     stamp = ros::Time(1000 + 10 * ++tests, 5000);
   }
@@ -115,6 +117,7 @@ class StationNodelet : public testing::Test {
   Inbox<sensor_msgs::Image> depth{nh, "/station/eyebug_b/depth_registered/image_rect"};
   Inbox<sensor_msgs::PointCloud2> points{nh, "/station/eyebug_b/points"};
   Inbox<sensor_msgs::Image> provenance{nh, "/station/eyebug_b/provenance"};
+  Inbox<visualization_msgs::MarkerArray> frusta{nh, "/station/frusta"};
   Inbox<rprr_msgs::PairStatistics> statistics{nh, "/station/statistics"};
   Inbox<rprr_msgs::Receipt> receipts{nh, "/station/receipts"};
   ros::Time stamp;
@@ -130,7 +133,7 @@ TEST_F(StationNodelet, WholeAndSparseFrameToViews) {
     return !rgb_a.messages.empty() && !rgb.messages.empty() && !depth.messages.empty() &&
            !points.messages.empty() && !provenance.messages.empty() && !info.messages.empty() &&
            statistics_of("eyebug_a") != nullptr && statistics_of("eyebug_b") != nullptr &&
-           !receipts.messages.empty();
+           !receipts.messages.empty() && frusta.messages.size() >= 2;
   }));
   EXPECT_EQ(rgb_a.messages[0]->header.frame_id, "eyebug_a_rgb_optical_frame");
   EXPECT_EQ(rgb.messages[0]->header.frame_id, "eyebug_b_rprr_optical_frame");
@@ -155,6 +158,18 @@ TEST_F(StationNodelet, WholeAndSparseFrameToViews) {
   std::memcpy(xyz, &cloud.data[(100 * 160 + 100) * 16], sizeof(xyz));
   EXPECT_NEAR(xyz[0], (100 - 79.5) / 140 * 2, 1e-4);
   EXPECT_NEAR(xyz[2], 2.0, 1e-4);
+
+  ASSERT_EQ(frusta.messages[1]->markers.size(), 1u);
+  const visualization_msgs::Marker& of_a = frusta.messages[0]->markers[0];
+  const visualization_msgs::Marker& frustum = frusta.messages[1]->markers[0];
+  EXPECT_EQ(of_a.ns, "eyebug_a");
+  EXPECT_EQ(of_a.header.frame_id, "eyebug_a_rgb_optical_frame");
+  EXPECT_EQ(frustum.ns, "eyebug_b");
+  EXPECT_EQ(frustum.header.frame_id, "eyebug_b_rprr_optical_frame");
+  EXPECT_EQ(frustum.header.stamp, stamp + ros::Duration(1));
+  EXPECT_EQ(frustum.points.size() % 2, 0u);
+  EXPECT_FALSE(frustum.points.empty());
+  EXPECT_NE(frustum.color.r, of_a.color.r) << "robots are told apart";
 
   const rprr_msgs::PairStatistics& of_b = *statistics_of("eyebug_b");
   EXPECT_EQ(of_b.reference, "eyebug_a");

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "rprr_geometry/block_grid.hpp"
+#include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/wire.hpp"
@@ -46,6 +49,14 @@ struct BlockPreview {
   /// Whether sizes and types are as stated: to be asked of a preview from elsewhere.
   bool well_formed() const;
 };
+
+/// A block that has a depth, as a point.
+struct PreviewPoint {
+  Eigen::Vector3f position;  // of the block's centre, optical frame of its camera, metres
+  cv::Vec3b bgr;
+};
+/// Row by row. Empty if the camera is of another size than the preview.
+std::vector<PreviewPoint> preview_points(const BlockPreview& preview, const Camera& camera);
 
 /// What preview depth is rounded to: about a Kinect's own step in inverse depth (2.85e-3 1/m).
 constexpr double kPreviewStep = 0.004;

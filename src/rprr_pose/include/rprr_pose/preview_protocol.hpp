@@ -8,6 +8,7 @@
 
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_pose/exchange.hpp"
+#include "rprr_pose/motion_prior.hpp"
 #include "rprr_pose/preview_pose.hpp"
 
 namespace rprr {
@@ -21,6 +22,10 @@ struct PreviewOptions {
   bool lossless_depth = false;  // dependent: readings of the sensor, unchanged, instead of steps
   int colour_quality = 40;      // dependent: of the preview's colours, WebP's 0 to 100
   PreviewPoseOptions search;    // reference
+  /// Reference: what a pose found without a search must have beyond limits.min_evidence. It was
+  /// compared with no other pose: of starts off by 5 to 15 cm some end in a valley beside the right
+  /// one and look well enough.
+  double warm_evidence = 0.3;
   Duration step_timeout = from_seconds(0.5);  // dependent: for a's answer; reference: for its frame
   Duration min_period = 0;                    // dependent: between previews
   Duration max_stamp_difference = from_seconds(0.05);  // reference: between the robots' frames
@@ -28,8 +33,9 @@ struct PreviewOptions {
   std::uint32_t first_exchange = 1;  // dependent: number of the first exchange, not 0
 };
 
-/// Role of a: finds the pose from b's preview, decides what is sent.
-std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options);
+/// Role of a: finds the pose from b's preview, decides what is sent. prior may be empty.
+std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options,
+                                                     MotionPrior prior = {});
 /// Role of b: sends previews.
 std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& options);
 

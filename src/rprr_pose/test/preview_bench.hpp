@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rprr_msgs/BlockPreview.h>
+
+#include "exchange_bench.hpp"
+
+namespace rprr {
+
+using PreviewOfBlocks = rprr_msgs::BlockPreview;  // rprr::BlockPreview is what is inside
+
+/// The exchange nodes while they speak the protocol of previews.
+class PreviewNodes : public ExchangeNodes {
+ protected:
+  PreviewNodes() {
+    metres_allowed = 0.03;
+    degrees_allowed = 0.7;
+  }
+  void SetUp() override {
+    ExchangeNodes::SetUp();
+    ASSERT_TRUE(wait([this] {
+      return previews.connected() && radio_preview.getNumSubscribers() >= 2;  // one is our inbox
+    })) << "the nodes do not use the topic of previews";
+  }
+  /// b looks elsewhere for one exchange: a has no fresh pose to begin with then.
+  bool exchange_elsewhere() {
+    CameraOfRobot elsewhere(nh, "eyebug_b", test_motion(0.2, 150.0));
+    if (!wait([&] { return elsewhere.connected(); })) return false;
+    next_stamp();
+    elsewhere.show(stamp);
+    a.show(stamp);
+    return wait([this] { return event_of(b_events, stamp) && pose_of(stamp); }) &&
+           pose_of(stamp)->status != RelativePose::ACCEPTED;
+  }
+  /// Whether the last exchange did without a search: RelativePose.iterations says so.
+  bool was_warm() const { return pose_of(stamp)->iterations == 1; }
+
+  Inbox<PreviewOfBlocks> previews{nh, "/eyebug_b/rprr/preview"};
+  ros::Publisher radio_preview = nh.advertise<PreviewOfBlocks>("/eyebug_b/rprr/preview", 100);
+};
+
+}  // namespace rprr

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// As test_exchange_nodes.cpp, with the protocol of previews: two robots' cameras and an attacker on
+// their radio; the nodes are started by the .test files, as nodelets and as nodes.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <cmath>
+#include <limits>
+
+#include "preview_bench.hpp"
+#include "rprr_geometry/preview.hpp"
+
+namespace rprr {
+namespace {
+
+TEST_F(PreviewNodes, OneMessageEachWayGivesTheTruePoseOnAllTopics) {
+  ASSERT_TRUE(exchange()) << last_outcome();
+  ASSERT_TRUE(accepted()) << last_outcome();
+  const RelativePose& pose = *pose_of(stamp);
+  EXPECT_EQ(pose.header.frame_id, "eyebug_a_rgb_optical_frame") << "slash cleaned";
+  EXPECT_EQ(pose.dependent, "eyebug_b");
+  EXPECT_EQ(pose.dependent_stamp, stamp);
+  EXPECT_GT(pose.inliers, 100);
+  EXPECT_GT(pose.covariance[0], 0.0f);
+
+  ASSERT_EQ(previews.messages.size(), 1u);
+  const PreviewOfBlocks& preview = *previews.messages[0];
+  EXPECT_EQ(preview.header.stamp, stamp);
+  EXPECT_EQ(preview.header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_EQ(preview.receiver, "eyebug_a");
+  EXPECT_EQ(preview.exchange, pose.exchange);
+  EXPECT_TRUE(a_samples.messages.empty() && b_samples.messages.empty());
+  EXPECT_TRUE(a_updates.messages.empty() && b_updates.messages.empty());
+
+  ASSERT_TRUE(wait([this] { return a_events.messages.size() >= 2; }));
+  ASSERT_EQ(a_events.messages.size(), 2u) << "send whole as the reference, then predict";
+  EXPECT_EQ(a_events.messages[0]->action, ExchangeEvent::SEND_WHOLE);
+  const ExchangeEvent& at_a = *a_events.messages[1];
+  EXPECT_EQ(at_a.action, ExchangeEvent::SEND_SPARSE);
+  EXPECT_EQ(at_a.peer, "eyebug_b");
+  const auto seen = decode_preview(at_a.peer_preview);
+  ASSERT_TRUE(seen) << seen.reason();
+  EXPECT_EQ(seen->grid.width, kTestCamera.width);
+  ASSERT_EQ(b_events.messages.size(), 1u);
+  const ExchangeEvent& at_b = *b_events.messages[0];
+  EXPECT_EQ(at_b.header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_TRUE(at_b.peer_preview.empty());
+  for (const ExchangeEvent* told : {&at_a, &at_b}) {
+    EXPECT_EQ(told->exchange, pose.exchange);
+    EXPECT_EQ(told->header.stamp, stamp);
+    ByteReader reader{ByteView(told->peer_camera)};
+    const auto camera = get_camera(reader);
+    ASSERT_TRUE(camera) << camera.reason();
+    EXPECT_EQ(camera_hash(*camera), camera_hash(kTestCamera));
+    EXPECT_EQ(told->exchange_bytes, ros::serialization::serializationLength(preview) +
+                                        ros::serialization::serializationLength(pose))
+        << "bytes as they crossed the radio";
+  }
+  EXPECT_EQ(pose.bytes_spent, at_b.exchange_bytes);
+}
+
+TEST_F(PreviewNodes, AcceptedPosesAreOnTf) {
+  const std::string a_frame = "eyebug_a_rgb_optical_frame";
+  const std::string b_frame = "eyebug_b_rprr_optical_frame";
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  // Nothing tells when the listener is connected: the first poses may be lost on it.
+  bool heard = false;
+  for (int i = 0; i < 10 && !heard; ++i) {
+    ASSERT_TRUE(exchange() && accepted()) << last_outcome();
+    heard = wait([&] { return buffer.canTransform(a_frame, b_frame, stamp); }, 1.0);
+  }
+  ASSERT_TRUE(heard) << "no tf of the accepted pose";
+  const auto b_in_a = buffer.lookupTransform(a_frame, b_frame, stamp);
+  const auto& t = b_in_a.transform.translation;
+  const auto& r = b_in_a.transform.rotation;
+  const Pose from_tf = make_pose({t.x, t.y, t.z}, {r.x, r.y, r.z, r.w});
+  const RelativePose& pose = *pose_of(stamp);
+  EXPECT_TRUE(from_tf.isApprox(pose_from_fields(pose.translation, pose.rotation).inverse(), 1e-9));
+}
+
+TEST_F(PreviewNodes, IntrinsicsCrossTheRadioOnce) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  ASSERT_TRUE(exchange() && accepted()) << last_outcome();
+  const std::size_t without = previews.messages.back()->data.size();
+  EXPECT_TRUE(pose_of(stamp)->reference_camera.empty());
+  // b forgets that a knows its camera when a does not answer.
+  b.show(next_stamp());
+  ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) != nullptr; }));
+  ASSERT_TRUE(exchange() && accepted()) << last_outcome();
+  EXPECT_EQ(previews.messages.back()->data.size(), without + kCameraBytes);
+}
+
+TEST_F(PreviewNodes, TheLastPoseSavesTheSearchWhileItHolds) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  ASSERT_TRUE(exchange() && accepted()) << last_outcome();
+  EXPECT_TRUE(was_warm());
+  ASSERT_TRUE(exchange_elsewhere()) << last_outcome();
+  EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  EXPECT_FALSE(event_of(b_events, stamp)->reason.empty());
+  ASSERT_TRUE(exchange() && accepted()) << last_outcome();
+  EXPECT_FALSE(was_warm()) << "the tf that we publish is no evidence of itself";
+}
+
+TEST_F(PreviewNodes, ASilentReferenceLetsBsFrameGoOutWhole) {
+  b.show(stamp);
+  ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) != nullptr; }));
+  EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  EXPECT_NE(event_of(b_events, stamp)->reason.find("eyebug_a"), std::string::npos)
+      << event_of(b_events, stamp)->reason;
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, ASilentDependentCostsNothing) {
+  a.show(stamp);
+  wait([] { return false; }, 0.3);
+  EXPECT_EQ(pose_of(stamp), nullptr) << "a speaks when it is spoken to";
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, ABlackCameraEndsInARejectedPose) {
+  CameraOfRobot::Frame dark = b.frame(stamp);
+  std::fill(dark.depth.data.begin(), dark.depth.data.end(), std::uint8_t{0});
+  std::fill(dark.rgb.data.begin(), dark.rgb.data.end(), std::uint8_t{0});
+  b.show(dark);
+  a.show(stamp);
+  ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) && pose_of(stamp); }));
+  EXPECT_NE(pose_of(stamp)->status, RelativePose::ACCEPTED);
+  EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, GarbageWhileNothingGoesOnIsRefusedAndReported) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  Attacker attacker;
+  PreviewOfBlocks message = *previews.messages.back();
+  const Bytes real = message.data;
+  for (int i = 0; i < 16; ++i) {
+    message.exchange += 1000;
+    message.data = real;
+    attacker.spoil(message.data, i % 4);
+    radio_preview.publish(message);
+  }
+  message.exchange += 1000;
+  message.data.assign(70000, 0xA5);  // longer than any message of an exchange
+  radio_preview.publish(message);
+  message.exchange += 1000;
+  message.data.clear();
+  radio_preview.publish(message);
+  message.header.stamp = stamp + ros::Duration(1000);  // a frame that never comes
+  message.data = real;
+  radio_preview.publish(message);
+  EXPECT_TRUE(complains("reference exchange", "eyebug_a", {"eyebug_b"})) << heard_;
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, GarbageDuringExchangesIsSurvived) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  Attacker attacker;
+  attacker.answer(previews, radio_preview);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(exchange()) << "every frame is decided: " << last_outcome();
+  }
+  previews.listener = nullptr;
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, AForgedPoseThatIsNoPoseSendsBWhole) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  // Before a can answer, since it has no frame yet, b is told that all is well.
+  const RelativePose real = *poses.messages.back();
+  bool forged = false;
+  previews.listener = [&](const PreviewOfBlocks& asked) {
+    forged = true;
+    RelativePose pose = real;
+    pose.exchange = asked.exchange;
+    pose.dependent_stamp = asked.header.stamp;
+    pose.translation[1] = std::numeric_limits<double>::quiet_NaN();
+    pose.covariance[3] = std::numeric_limits<float>::infinity();
+    radio_pose.publish(pose);
+  };
+  b.show(next_stamp());
+  ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) != nullptr; }));
+  previews.listener = nullptr;
+  EXPECT_TRUE(forged);
+  EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"eyebug_a"})) << heard_;
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+}  // namespace
+}  // namespace rprr
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_preview_nodes");
+  return RUN_ALL_TESTS();
+}
