@@ -48,13 +48,10 @@ void read_preview(const YAML::Node& file, PreviewOptions& pose) {
   read(file, "search_roll", pose.search.range.roll);
   PreviewLimits& limits = pose.search.limits;
   read(file, "preview_min_overlap", limits.min_overlap);
-  read(file, "preview_min_consistent", limits.min_consistent);
   read(file, "preview_max_violating", limits.max_violating);
-  read(file, "preview_min_correlation", limits.min_correlation);
-  read(file, "preview_max_luma_chi2", limits.max_luma_chi2);
   read(file, "preview_min_evidence", limits.min_evidence);
   read(file, "preview_min_margin", limits.min_margin);
-  read(file, "preview_warm_evidence", pose.warm_evidence);
+  read(file, "preview_warm_evidence", limits.warm_evidence);
 }
 
 // Empty, or why a word is none of the two that a key knows.

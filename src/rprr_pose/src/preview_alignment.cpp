@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "row_sums.hpp"
 #include "rprr_pose/pinhole.hpp"
@@ -56,8 +57,26 @@ struct Exposure {
   float sigma = 0.0f;
 };
 
+// Gradients by tile.
+struct Tiles {
+  std::vector<Twist> gradients;
+  std::vector<int> residuals;
+
+  void add(std::size_t tile, const Row& row, float weight) {
+    if (tile >= gradients.size()) {
+      gradients.resize(tile + 1, Twist::Zero());
+      residuals.resize(tile + 1, 0);
+    }
+    for (int i = 0; i < 6; ++i) {
+      gradients[tile][i] += static_cast<double>(weight * row.at[6] * row.at[i]);
+    }
+    ++residuals[tile];
+  }
+};
+
 struct Sums {
   RowSums geometric, photometric;
+  Tiles* tiles = nullptr;  // if they are wanted
   int geometry = 0, luma = 0;
   int close = 0, before = 0, behind = 0;
   float deviation = 0.0f;  // sum of absolute luma residuals
@@ -104,8 +123,9 @@ class Linearizer {
     metres_ = fixed.metres.empty() ? nullptr : fixed.metres.ptr<float>();
   }
 
-  Sums at(const Pose& motion, float gate, const Exposure& exposure) const {
+  Sums at(const Pose& motion, float gate, const Exposure& exposure, Tiles* tiles = nullptr) const {
     Sums sums;
+    sums.tiles = tiles;
     Projected projected;
     for (std::size_t begin = 0; begin < moving_.size(); begin += kChunk) {
       const std::size_t count = std::min(kChunk, moving_.size() - begin);
@@ -163,7 +183,9 @@ class Linearizer {
       const float residual = facing * off;
       const Row row{{nx, ny, nz, p.z * (p.y * nz - ny), p.z * (nx - p.x * nz),
                      p.z * (p.x * ny - p.y * nx), residual, 0.0f}};
-      sums.geometric.add(row, huber(residual * residual / variance) / variance);
+      const float weight = huber(residual * residual / variance) / variance;
+      sums.geometric.add(row, weight);
+      if (sums.tiles) sums.tiles->add(moving_.tile[i], row, weight);
       ++sums.geometry;
     }
     photometric(i, p, exposure, sums);
@@ -189,7 +211,9 @@ class Linearizer {
     const Row row{{gx * inverse, gy * inverse, gz * inverse, p.y * gz - gy, gx - p.x * gz,
                    p.x * gy - p.y * gx, residual, 0.0f}};
     const float variance = exposure.sigma * exposure.sigma;
-    sums.photometric.add(row, huber(residual * residual / variance) / variance);
+    const float weight = huber(residual * residual / variance) / variance;
+    sums.photometric.add(row, weight);
+    if (sums.tiles) sums.tiles->add(moving_.tile[i], row, weight);
   }
 
   float fixed_depth(std::size_t cell, float x, float y) const {
@@ -229,6 +253,16 @@ void store(const Sums& found, std::size_t points, const Exposure& exposure, Alig
   sums.correlation = found.correlation();
 }
 
+void store(const Tiles& tiles, AlignmentSums& sums) {
+  sums.scatter.setZero();
+  sums.tiles = 0;
+  for (std::size_t i = 0; i < tiles.gradients.size(); ++i) {
+    if (tiles.residuals[i] == 0) continue;
+    sums.scatter += tiles.gradients[i] * tiles.gradients[i].transpose();
+    ++sums.tiles;
+  }
+}
+
 Twist step_of(const Sums& found, const Matrix6& information) {
   Matrix6 damped = information;
   damped.diagonal() *= 1.0 + 1e-4;
@@ -252,6 +286,8 @@ MovingPoints points_of(const PreviewView& view, int stride) {
   for (auto* array : {&points.x, &points.y, &points.z, &points.variance, &points.luma}) {
     array->reserve(most);
   }
+  points.tile.reserve(most);
+  const int tiles = (view.width() + kTileCells - 1) / kTileCells;
   const int shift = std::max(1, stride / 2);
   for (int r = 0; r < view.height(); ++r) {
     for (int c = (stride - r * shift % stride) % stride; c < view.width(); c += stride) {
@@ -262,6 +298,7 @@ MovingPoints points_of(const PreviewView& view, int stride) {
       points.z.push_back(view.z[i]);
       points.variance.push_back(view.sigma[i] * view.sigma[i]);
       points.luma.push_back(view.luma[i]);
+      points.tile.push_back(static_cast<std::uint16_t>(r / kTileCells * tiles + c / kTileCells));
     }
   }
   return points;
@@ -289,6 +326,11 @@ bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOp
     }
     exposure = found.exposure(options);
     gate = std::max(gate * shrink, options.last_gate);
+  }
+  if (options.scatter) {
+    Tiles tiles;
+    linearizer.at(motion, options.last_gate, exposure, &tiles);
+    store(tiles, sums);
   }
   return true;
 }

@@ -10,10 +10,12 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kCoarsest = 16;         // cells in a row of the coarsest view: 80, 40 and 20 for VGA
-constexpr std::size_t kSlid = 6;      // candidates that are also tried some way along
-constexpr double kSharedPower = 0.4;  // how much more of a view that is shared counts
-constexpr double kSlideStep = 0.25;   // metres
+constexpr int kCoarsest = 16;     // cells in a row of the coarsest view: 80, 40 and 20 for VGA
+constexpr std::size_t kSlid = 6;  // candidates that are also tried some way along
+constexpr double kRival = 0.75;   // of a warm pose's score: another one that scores more is a rival
+constexpr double kTilesOfModel = 8.0;     // how many tiles' word the residuals' variance is worth
+constexpr double kSharedPower = 0.4;      // how much more of a view that is shared counts
+constexpr double kSlideStep = 0.25;       // metres
 constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
 constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
@@ -78,6 +80,20 @@ double share(double part, double whole) {
   return whole > 0 ? part / whole : 0.0;
 }
 
+// Of the aligned motion. Neighbours share their sensor's errors, so that the residuals' number says
+// too much: what they do to the estimate is taken from their sums over tiles, leaning on the
+// residuals' own variance where tiles are few.
+Matrix6 covariance_of(const AlignmentSums& sums) {
+  const double freedom = std::max(1, sums.geometry + sums.luma - 6);
+  const double scale = std::max(1.0, (sums.chi2_geometry + sums.chi2_luma) / freedom);
+  Matrix6 information = sums.information;
+  information.diagonal().array() += 1.0;
+  const Matrix6 inverse = information.inverse();
+  const double tiles = sums.tiles;
+  const Matrix6 clustered = tiles / std::max(1.0, tiles - 6.0) * inverse * sums.scatter * inverse;
+  return (tiles * clustered + kTilesOfModel * scale * inverse) / (tiles + kTilesOfModel);
+}
+
 double worst_sigma(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
@@ -116,6 +132,7 @@ bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   options.iterations = 10;
   options.gate = 0.12f;
   options.last_gate = 0.05f;
+  options.scatter = true;
   FixedView fixed = fine_;
   fixed.cells = &a_[0];
   return align(points_of(b_[0], 2), fixed, options, candidate.motion, candidate.sums);
@@ -198,43 +215,28 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   PreviewPose out;
   out.motion = best.motion.inverse();
   out.score = best.score;
-  out.margin = best.score > 0.0 ? (best.score - second) / best.score : 0.0;
+  const double margin = best.score > 0.0 ? (best.score - second) / best.score : 0.0;
+  out.evidence = evidence_of(best.b_in_a, best.a_in_b, margin);
+  out.log_odds = log_odds(out.evidence);
   out.b_in_a = best.b_in_a;
   out.a_in_b = best.a_in_b;
   out.sums = best.sums;
-  // Left perturbation of b-to-a carried over to a-to-b; cells share their sensor's systematic
-  // errors, hence the residuals' own scale.
-  const double freedom = std::max(1, best.sums.geometry + best.sums.luma - 6);
-  const double scale = std::max(1.0, (best.sums.chi2_geometry + best.sums.chi2_luma) / freedom);
-  Matrix6 information = best.sums.information;
-  information.diagonal().array() += 1.0;
+  // Left perturbation of b-to-a carried over to a-to-b.
   const Matrix6 a = adjoint(out.motion);
-  out.covariance = scale * a * information.inverse() * a.transpose();
+  out.covariance = a * covariance_of(best.sums) * a.transpose();
 
   const PreviewLimits& limits = options_.limits;
-  const Agreement& one = best.b_in_a;
-  const Agreement& other = best.a_in_b;
-  const double overlap = std::min(share(one.in_view, one.valid), share(other.in_view, other.valid));
-  const double consistent =
-      std::min(share(one.consistent, one.in_view), share(other.consistent, other.in_view));
-  const double violating =
-      std::max(share(one.violating, one.in_view), share(other.violating, other.in_view));
-  const double hidden =
-      std::max(share(one.hidden, one.in_view), share(other.hidden, other.in_view));
-  const double correlation = std::min(one.correlation, other.correlation);
-  const double fine = std::min(one.fine_correlation, other.fine_correlation);
-  out.evidence = correlation + fine + consistent - 2.0 * violating - 0.5 * hidden;
+  const double overlap = std::min(share(best.b_in_a.in_view, best.b_in_a.valid),
+                                  share(best.a_in_b.in_view, best.a_in_b.valid));
   if (overlap < limits.min_overlap) {
     out.status = PoseStatus::kLittleOverlap;
-  } else if (violating > limits.max_violating) {
+  } else if (out.evidence.violating > limits.max_violating) {
     out.status = PoseStatus::kFreeSpaceViolated;
-  } else if (consistent < limits.min_consistent || correlation < limits.min_correlation ||
-             share(best.sums.chi2_luma, best.sums.luma) > limits.max_luma_chi2 ||
-             out.evidence < limits.min_evidence) {
+  } else if (out.log_odds < limits.min_evidence) {
     out.status = PoseStatus::kInconsistent;
   } else if (worst_sigma(out.covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
              worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation ||
-             out.margin < limits.min_margin) {
+             out.evidence.margin < limits.min_margin) {
     out.status = PoseStatus::kDegenerate;
   } else {
     out.status = PoseStatus::kAccepted;
@@ -242,19 +244,37 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   return out;
 }
 
+// A warm start was held against no other pose: where depth leaves it free to slide, the nearest
+// places where the views match once more are its rivals.
+bool PreviewPoseEstimator::stands_alone(const Candidate& warm) const {
+  const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
+  std::vector<Candidate> candidates{warm};
+  slide(CoarseMatch(b_[coarsest], a_[coarsest]), candidates);
+  narrow(candidates, coarsest - 1, 3, {4, 0.25f, 0.2f}, candidates.size(), 0.05, 2.0);
+  double own = 0.0;
+  double rival = 0.0;
+  for (const Candidate& candidate : candidates) {
+    const bool other = differ(candidate.motion, warm.motion, kDistinctMetres, kDistinctDegrees);
+    double& score = other ? rival : own;
+    score = std::max(score, candidate.score);
+  }
+  return own > 0.0 && rival < kRival * own;
+}
+
 PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPreview& b,
                                            const Camera& b_camera, const std::vector<Pose>& warm) {
   prepare(a);
-  b_.assign(1, make_view(b, b_camera));
+  b_ = pyramid(make_view(b, b_camera));
   for (const Pose& m_ab : warm) {
     Candidate candidate;
     candidate.motion = m_ab.inverse();
     if (!refine(candidate)) continue;
     judge(candidate);
-    PreviewPose pose = finish(candidate, 0.0);
-    if (pose.status == PoseStatus::kAccepted) return pose;
+    const PreviewPose pose = finish(candidate, 0.0);
+    const double needed = options_.limits.min_evidence + options_.limits.warm_evidence;
+    if (pose.status == PoseStatus::kAccepted && pose.log_odds >= needed && stands_alone(candidate))
+      return pose;
   }
-  b_ = pyramid(std::move(b_[0]));
   const std::vector<Candidate> found = search();
   if (found.empty()) {
     PreviewPose none;

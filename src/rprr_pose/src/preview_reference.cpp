@@ -93,11 +93,8 @@ class PreviewReference final : public ExchangeRole {
       return "preview of another size than its camera";
     }
     const FrameNames frames{frame.stamp, frame.frame_id, message.stamp, message.frame_id};
-    PreviewPose found = estimator_.estimate(frame, *preview, *peer_camera_, worth_trying(frames));
-    if (!found.searched &&
-        found.evidence < options_.search.limits.min_evidence + options_.warm_evidence) {
-      found = estimator_.estimate(frame, *preview, *peer_camera_, {});
-    }
+    const PreviewPose found =
+        estimator_.estimate(frame, *preview, *peer_camera_, worth_trying(frames));
     pose.status = found.status;
     pose.motion = found.motion;
     pose.covariance = found.covariance;

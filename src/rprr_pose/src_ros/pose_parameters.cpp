@@ -56,13 +56,10 @@ PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std
   private_nh.param("search_roll", range.roll, range.roll);
   PreviewLimits& limits = options.search.limits;
   private_nh.param("preview_min_overlap", limits.min_overlap, limits.min_overlap);
-  private_nh.param("preview_min_consistent", limits.min_consistent, limits.min_consistent);
   private_nh.param("preview_max_violating", limits.max_violating, limits.max_violating);
-  private_nh.param("preview_min_correlation", limits.min_correlation, limits.min_correlation);
-  private_nh.param("preview_max_luma_chi2", limits.max_luma_chi2, limits.max_luma_chi2);
   private_nh.param("preview_min_evidence", limits.min_evidence, limits.min_evidence);
   private_nh.param("preview_min_margin", limits.min_margin, limits.min_margin);
-  private_nh.param("preview_warm_evidence", options.warm_evidence, options.warm_evidence);
+  private_nh.param("preview_warm_evidence", limits.warm_evidence, limits.warm_evidence);
   seconds("step_timeout", options.step_timeout);
   seconds("min_period", options.min_period);
   seconds("max_frame_difference", options.max_stamp_difference);

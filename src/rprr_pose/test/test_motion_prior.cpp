@@ -83,7 +83,7 @@ TEST_F(MotionPriorTest, AWrongProposalDoesNoHarm) {
 
 TEST_F(MotionPriorTest, WithoutEvidenceToSpareTheSearchDecides) {
   PreviewOptions options = options_for("a", "b");
-  options.warm_evidence = 10.0;  // more than there can be
+  options.search.limits.warm_evidence = 100.0;  // more than there can be
   reference =
       make_preview_reference(options, [](const FrameNames&, const std::optional<KnownMotion>&) {
         return std::vector<Pose>{kTruth};

@@ -27,8 +27,8 @@ TEST(PreviewPose, FindsMotionsFromFarApart) {
     const Pose truth = test_motion(metres, degrees);
     const PreviewPose found = estimate(truth);
     EXPECT_EQ(found.status, PoseStatus::kAccepted)
-        << metres << " m, " << degrees << " deg: " << reason_of(found.status) << ", evidence "
-        << found.evidence;
+        << metres << " m, " << degrees << " deg: " << reason_of(found.status) << ", log odds "
+        << found.log_odds;
     EXPECT_LT(translation_error(found.motion, truth), 0.03)
         << metres << " m, " << degrees << " deg";
     EXPECT_LT(rotation_error(found.motion, truth), 0.8) << metres << " m, " << degrees << " deg";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "rprr_geometry/se3.hpp"
@@ -14,9 +15,12 @@ struct MovingPoints {
   std::vector<float> x, y, z;   // metres, optical frame of the moving view
   std::vector<float> variance;  // of z, metres^2
   std::vector<float> luma;
+  std::vector<std::uint16_t> tile;  // which patch of the view the point is in
 
   std::size_t size() const { return z.size(); }
 };
+/// Tiles are squares of kTileCells cells a side, numbered row by row.
+constexpr int kTileCells = 10;
 MovingPoints points_of(const PreviewView& view, int stride);
 
 /// What the moving view's points are aligned to: cells of the fixed view, with, where it is known,
@@ -39,6 +43,7 @@ struct AlignmentOptions {
   // bounds: coding and noise below, views that are not aligned yet above.
   float least_luma_sigma = 5.0f;
   float most_luma_sigma = 20.0f;
+  bool scatter = false;  // also fill in AlignmentSums::scatter
 };
 
 /// Sums of the last iteration at its pose.
@@ -48,7 +53,11 @@ struct AlignmentSums {
   double chi2_geometry = 0.0;             // sum of squared residuals over their variance
   double chi2_luma = 0.0;
   double luma_sigma = 0.0;  // grey levels, what chi2_luma is in units of
-  int geometry = 0;         // residuals of each kind
+  /// Sum over tiles of g g^T, g being the tile's gradient at the final pose: what residuals that
+  /// neighbours share do to the estimate (a cluster-robust covariance is H^-1 scatter H^-1).
+  Matrix6 scatter = Matrix6::Zero();
+  int tiles = 0;     // that had residuals
+  int geometry = 0;  // residuals of each kind
   int luma = 0;
   // Of the points that took part: how many landed within the gate, clearly before (in seen free
   // space) or behind the fixed surface, and how their luma correlates.

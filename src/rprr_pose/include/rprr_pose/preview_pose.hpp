@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rprr_geometry/preview.hpp"
+#include "rprr_pose/pose_evidence.hpp"
 #include "rprr_pose/pose_frame.hpp"
 #include "rprr_pose/pose_status.hpp"
 #include "rprr_pose/preview_agreement.hpp"
@@ -15,18 +16,13 @@ namespace rprr {
 
 /// When a pose found from a preview is believed.
 struct PreviewLimits {
-  double min_overlap = 0.18;      // share of either view's cells that fall into the other on depth
-  double min_consistent = 0.8;    // share of those that agree, the worse way
-  double max_violating = 0.04;    // share of those in seen free space, the worse way
-  double min_correlation = 0.75;  // of luma over agreeing cells, the worse way
-  double max_luma_chi2 = 3.0;  // mean squared luma residual over what coding and exposure explain
-  /// Sum of correlation, fine correlation and consistent share, less twice the violating and half
-  /// the hidden share, all the worse way: no single one separates right from wrong poses, together
-  /// they do.
-  double min_evidence = 2.0;
-  double min_margin = 0.06;             // of the score over the best distinct other pose
-  double max_sigma_translation = 0.02;  // metres
-  double max_sigma_rotation = 0.01;     // rad
+  double min_overlap = 0.22;    // share of either view's cells that fall into the other on depth
+  double max_violating = 0.04;  // share of those in seen free space, the worse way
+  double min_evidence = 2.0;    // log odds of being right, pose_evidence.hpp
+  double warm_evidence = 1.0;   // what a pose found without the search needs beyond that
+  double min_margin = 0.06;     // of the score over the best distinct other pose
+  double max_sigma_translation = 0.03;  // metres, in the worst direction
+  double max_sigma_rotation = 0.015;    // rad, likewise
 };
 
 struct PreviewPoseOptions {
@@ -40,8 +36,8 @@ struct PreviewPose {
   Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
   double score = 0.0;                    // of the pose
-  double evidence = 0.0;                 // see PreviewLimits
-  double margin = 0.0;                   // over the best distinct other pose
+  double log_odds = 0.0;                 // of being right
+  PoseEvidence evidence;                 // what they come from
   Agreement b_in_a, a_in_b;
   AlignmentSums sums;
   bool searched = false;  // the full search was needed
@@ -55,7 +51,8 @@ class PreviewPoseEstimator {
   explicit PreviewPoseEstimator(const PreviewPoseOptions& options) : options_(options) {}
 
   /// a: the reference's frame, with colour. warm: poses worth trying first (the last accepted one,
-  /// tf, odometry); the full search runs only if none of them verifies.
+  /// tf, odometry); the full search runs only if none of them verifies, with evidence to spare and
+  /// without a rival along the directions that depth leaves free.
   PreviewPose estimate(const PoseFrame& a, const BlockPreview& b, const Camera& b_camera,
                        const std::vector<Pose>& warm);
 
@@ -78,6 +75,7 @@ class PreviewPoseEstimator {
   void judge(Candidate& candidate) const;
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
+  bool stands_alone(const Candidate& warm) const;
   std::vector<Candidate> search() const;
   void slide(const CoarseMatch& match, std::vector<Candidate>& candidates) const;
 

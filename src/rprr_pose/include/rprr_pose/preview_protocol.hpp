@@ -22,10 +22,6 @@ struct PreviewOptions {
   bool lossless_depth = false;  // dependent: readings of the sensor, unchanged, instead of steps
   int colour_quality = 40;      // dependent: of the preview's colours, WebP's 0 to 100
   PreviewPoseOptions search;    // reference
-  /// Reference: what a pose found without a search must have beyond limits.min_evidence. It was
-  /// compared with no other pose: of starts off by 5 to 15 cm some end in a valley beside the right
-  /// one and look well enough.
-  double warm_evidence = 0.3;
   Duration step_timeout = from_seconds(0.5);  // dependent: for a's answer; reference: for its frame
   Duration min_period = 0;                    // dependent: between previews
   Duration max_stamp_difference = from_seconds(0.05);  // reference: between the robots' frames

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "rprr_pose/preview_agreement.hpp"
+
+namespace rprr {
+
+/// What tells right poses of two previews from wrong ones; of both ways the worse.
+struct PoseEvidence {
+  double correlation = 0.0;       // of luma over cells whose depths agree
+  double fine_correlation = 0.0;  // of what luma differs from its neighbourhood by
+  double odd = 1.0;        // share of shared cells whose depth fits nothing: not the surface,
+                           // not clearly before it, not clearly behind it
+  double violating = 1.0;  // share of shared cells in seen free space
+  double margin = 0.0;     // of the score over the best distinct other pose
+};
+PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double margin);
+
+/// The same as numbers that belief is linear in: both correlations through Fisher's transform, all
+/// clipped, so that none can outweigh all others.
+constexpr std::size_t kEvidenceTerms = 5;
+std::array<double, kEvidenceTerms> terms_of(const PoseEvidence& evidence);
+
+/// Logarithm of the odds that the pose is right rather than wrong: a logistic regression on pairs
+/// of synthetic rooms and corridors and on pairs of frames from different places. `rprr_eval
+/// belief` fits it anew on other seeds (docs/pose.md).
+double log_odds(const PoseEvidence& evidence);
+
+}  // namespace rprr

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_pose/pose_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rprr {
+namespace {
+
+// As fitted: for the terms in their order, then the constant.
+constexpr std::array<double, kEvidenceTerms> kSlopes = {3.86, 7.92, -17.3, -51.4, 14.3};
+constexpr double kConstant = -8.9;
+
+double share(int part, int whole) {
+  return whole > 0 ? static_cast<double>(part) / whole : 0.0;
+}
+
+double odd_share(const Agreement& way) {
+  return 1.0 - share(way.consistent + way.violating + way.hidden, way.in_view);
+}
+
+}  // namespace
+
+PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double margin) {
+  PoseEvidence evidence;
+  evidence.correlation = std::min(one.correlation, other.correlation);
+  evidence.fine_correlation = std::min(one.fine_correlation, other.fine_correlation);
+  evidence.odd = std::max(odd_share(one), odd_share(other));
+  evidence.violating =
+      std::max(share(one.violating, one.in_view), share(other.violating, other.in_view));
+  evidence.margin = margin;
+  return evidence;
+}
+
+std::array<double, kEvidenceTerms> terms_of(const PoseEvidence& evidence) {
+  return {std::atanh(std::clamp(evidence.correlation, -0.98, 0.98)),
+          std::atanh(std::clamp(evidence.fine_correlation, -0.9, 0.9)),
+          std::clamp(evidence.odd, 0.0, 0.3), std::clamp(evidence.violating, 0.0, 0.1),
+          std::clamp(evidence.margin, 0.0, 0.3)};
+}
+
+double log_odds(const PoseEvidence& evidence) {
+  const std::array<double, kEvidenceTerms> terms = terms_of(evidence);
+  double sum = kConstant;
+  for (std::size_t i = 0; i < kEvidenceTerms; ++i) sum += kSlopes[i] * terms[i];
+  return sum;
+}
+
+}  // namespace rprr
