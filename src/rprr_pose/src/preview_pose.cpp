@@ -196,7 +196,7 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() cons
     candidates.emplace_back();
     candidates.back().motion = start;
   }
-  narrow(candidates, middle, 4, {4, 1.0f, 0.5f}, 40, 0.04, 1.5);
+  narrow(candidates, middle, 3, {6, 0.6f, 0.25f}, 40, 0.04, 1.5);
   narrow(candidates, middle, 2, {5, 0.5f, 0.2f}, 14, 0.05, 2.0);
   slide(match, candidates);
   narrow(candidates, middle, 3, {4, 0.25f, 0.2f}, 12, 0.05, 2.0);
