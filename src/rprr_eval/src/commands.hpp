@@ -14,6 +14,7 @@ void add_turntable_command(CLI::App& app, int& exit_code);
 void add_iterations_command(CLI::App& app, int& exit_code);
 void add_latency_command(CLI::App& app, int& exit_code);
 void add_poses_command(CLI::App& app, int& exit_code);
+void add_belief_command(CLI::App& app, int& exit_code);
 void add_consistency_command(CLI::App& app, int& exit_code);
 void add_timing_command(CLI::App& app, int& exit_code);
 void add_methods_command(CLI::App& app, int& exit_code);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   rprr::add_iterations_command(app, exit_code);
   rprr::add_latency_command(app, exit_code);
   rprr::add_poses_command(app, exit_code);
+  rprr::add_belief_command(app, exit_code);
   rprr::add_consistency_command(app, exit_code);
   rprr::add_timing_command(app, exit_code);
   rprr::add_methods_command(app, exit_code);

@@ -308,8 +308,9 @@ std::vector<PreviewPoint> preview_points(const BlockPreview& preview, const Came
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       if (!preview.valid(column, row)) continue;
-      const Eigen::Vector3d point = camera.unproject(
-          kBlockSide * column + kCentre, kBlockSide * row + kCentre, preview.metres(grid.index(column, row)));
+      const Eigen::Vector3d point =
+          camera.unproject(kBlockSide * column + kCentre, kBlockSide * row + kCentre,
+                           preview.metres(grid.index(column, row)));
       points.push_back({point.cast<float>(), preview.bgr.at<cv::Vec3b>(row, column)});
     }
   }
