@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "rprr_pose/preview_pose.hpp"
+
 namespace rprr {
 namespace {
 
@@ -67,7 +69,7 @@ TEST(Belief, SearchesOfSmallScenesGiveSamplesOfBothKinds) {
   EXPECT_GE(right, 5) << "of 9 pairs close together";
   for (const BeliefSample& sample : samples) {
     if (sample.right) continue;
-    EXPECT_LT(log_odds(sample.evidence), 2.0) << "a wrong one is believed";
+    EXPECT_LT(log_odds(sample.evidence), PreviewLimits().min_evidence) << "a wrong one is believed";
   }
 }
 

@@ -23,9 +23,9 @@ PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double ma
 constexpr std::size_t kEvidenceTerms = 5;
 std::array<double, kEvidenceTerms> terms_of(const PoseEvidence& evidence);
 
-/// Logarithm of the odds that the pose is right rather than wrong: a logistic regression on pairs
-/// of synthetic rooms and corridors and on pairs of frames from different places. `rprr_eval
-/// belief` fits it anew on other seeds (docs/pose.md).
+/// Logarithm of the odds that the pose is right rather than wrong: a logistic regression on what
+/// the search found for pairs of synthetic rooms, turntables and corridors, and for frames of two
+/// different places. `rprr_eval belief --scenes 150` printed the numbers (docs/pose.md).
 double log_odds(const PoseEvidence& evidence);
 
 }  // namespace rprr

@@ -18,7 +18,7 @@ namespace rprr {
 struct PreviewLimits {
   double min_overlap = 0.22;    // share of either view's cells that fall into the other on depth
   double max_violating = 0.04;  // share of those in seen free space, the worse way
-  double min_evidence = 2.0;    // log odds of being right, pose_evidence.hpp
+  double min_evidence = 1.0;    // log odds of being right, pose_evidence.hpp
   double warm_evidence = 1.0;   // what a pose found without the search needs beyond that
   double min_margin = 0.06;     // of the score over the best distinct other pose
   double max_sigma_translation = 0.03;  // metres, in the worst direction
