@@ -82,9 +82,10 @@ std::vector<CodecFigures> survey(const std::string& name, const Images& images,
                                  const std::vector<NamedDepthCodec>& codecs,
                                  const CodecArguments& arguments) {
   auto figures = survey_depth(name, images.depth, codecs, arguments.repeats);
-  for (CodecFigures& f : figures) {
-    if (f.codec != "dhcm" || arguments.draws == 0) continue;
-    f.sparse = survey_sparse(images.depth, {0.3, 0.1, 0.02}, arguments.draws);
+  for (std::size_t i = 0; i < codecs.size(); ++i) {
+    if (!codecs[i].ours || arguments.draws == 0) continue;
+    figures[i].sparse =
+        survey_sparse(images.depth, *codecs[i].ours, {0.3, 0.1, 0.02}, arguments.draws);
   }
   if (images.bgr.empty() || !arguments.colour) return figures;
   const auto encoder = make_colour_encoder("pgf", arguments.quality);

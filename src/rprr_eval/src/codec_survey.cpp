@@ -136,9 +136,9 @@ std::vector<CodecFigures> survey_depth(const std::string& folder,
   return figures;
 }
 
-std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames,
+std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames, DhcmMode mode,
                                          const std::vector<double>& shares, int draws) {
-  DhcmEncoder encoder;
+  DhcmEncoder encoder(mode);
   std::vector<SparseFigures> all;
   for (const double share : shares) {
     std::vector<double> relative, bits, masks;

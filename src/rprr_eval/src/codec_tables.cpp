@@ -40,20 +40,24 @@ class Tables {
     return text;
   }
 
-  std::string sparse_table() const {
-    std::string text;
-    for (const CodecFigures& figures : figures_) {
+  // For the codecs that have it, the shares of blocks side by side in a cell.
+  std::string sparse_table(const std::string& corner,
+                           const std::function<std::string(const SparseFigures&)>& value) const {
+    Tables ours(figures_);
+    ours.codecs_.erase(std::remove_if(ours.codecs_.begin(), ours.codecs_.end(),
+                                      [&](const std::string& codec) {
+                                        const CodecFigures* f = find(codec, folders_.front());
+                                        return f == nullptr || f->sparse.empty();
+                                      }),
+                       ours.codecs_.end());
+    if (ours.codecs_.empty()) return {};
+    return "\n" + ours.table(corner, [&](const CodecFigures& figures) {
+      std::string cell;
       for (const SparseFigures& s : figures.sparse) {
-        text += "| " + figures.codec + " | " + figures.folder + " | " + fixed(100.0 * s.share, 0) +
-                "% | " + fixed(s.bits_per_pixel, 2) + " | " + fixed(s.relative_bits, 2) + " | " +
-                fixed(s.mask_bytes, 0) + " |\n";
+        cell += (cell.empty() ? "" : " / ") + value(s);
       }
-    }
-    if (text.empty()) return text;
-    return "| codec | folder | blocks kept | bits per kept pixel | over the whole frame's | bytes "
-           "of "
-           "the mask |\n|---|---|---:|---:|---:|---:|\n" +
-           text;
+      return cell;
+    });
   }
 
  private:
@@ -92,8 +96,12 @@ std::string codec_tables(const std::vector<CodecFigures>& figures) {
              fixed(f.decode_ms / rvl->decode_ms, 2);
     });
   }
-  const std::string sparse = tables.sparse_table();
-  return sparse.empty() ? text : text + "\n" + sparse;
+  text += tables.sparse_table(
+      "bits per kept pixel over the whole frame's",
+      [](const SparseFigures& sparse) { return fixed(sparse.relative_bits, 2); });
+  text += tables.sparse_table(
+      "mask, bytes", [](const SparseFigures& sparse) { return fixed(sparse.mask_bytes, 0); });
+  return text;
 }
 
 }  // namespace rprr

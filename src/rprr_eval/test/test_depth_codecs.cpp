@@ -100,7 +100,7 @@ TEST(CodecSurvey, ComparesSideBySide) {
     EXPECT_TRUE(f.lossless) << f.codec;
     EXPECT_GT(f.ratio, 1.0) << f.codec;
   }
-  figures.front().sparse = survey_sparse(frames, {0.3, 0.1}, 2);
+  figures.front().sparse = survey_sparse(frames, DhcmMode::kDefault, {0.3, 0.1}, 2);
   ASSERT_EQ(figures.front().sparse.size(), 2u);
   EXPECT_GT(figures.front().sparse[0].relative_bits, 0.0);
   EXPECT_GT(figures.front().sparse[0].mask_bytes, 0.0);

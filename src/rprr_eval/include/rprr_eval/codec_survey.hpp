@@ -40,7 +40,7 @@ std::vector<CodecFigures> survey_depth(const std::string& folder,
                                        const std::vector<NamedDepthCodec>& codecs, int repeats);
 
 /// `draws` random masks for each frame and share.
-std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames,
+std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames, DhcmMode mode,
                                          const std::vector<double>& shares, int draws);
 
 CodecFigures survey_colour(const std::string& folder, const std::vector<cv::Mat>& images,

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/wire.hpp"
 
@@ -30,7 +32,7 @@ using DepthCodecResult = Result<std::unique_ptr<DepthCodec>>;
 struct DepthCodecEntry {
   std::string name;
   std::string description;
-  bool ours = false;
+  std::optional<DhcmMode> ours;  // DHC-M's mode; nothing: a peer
   /// Errors: a peer that was not built in, and the package that it wants.
   std::function<DepthCodecResult()> make;
 };
@@ -38,6 +40,7 @@ const std::vector<DepthCodecEntry>& depth_codecs();
 
 struct NamedDepthCodec {
   std::string name;
+  std::optional<DhcmMode> ours;
   std::unique_ptr<DepthCodec> codec;
 };
 

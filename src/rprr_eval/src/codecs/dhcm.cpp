@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_codec/dhcm.hpp"
-
 #include "codecs/makers.hpp"
 
 namespace rprr {
@@ -8,6 +6,8 @@ namespace {
 
 class Dhcm : public DepthCodec {
  public:
+  explicit Dhcm(DhcmMode mode) : encoder_(mode) {}
+
   bool encode(const cv::Mat& counts, Bytes& coded) override {
     coded = encoder_.encode({counts, 0.001});
     return true;
@@ -26,8 +26,8 @@ class Dhcm : public DepthCodec {
 
 }  // namespace
 
-DepthCodecResult make_dhcm() {
-  return std::unique_ptr<DepthCodec>(std::make_unique<Dhcm>());
+DepthCodecResult make_dhcm(DhcmMode mode) {
+  return std::unique_ptr<DepthCodec>(std::make_unique<Dhcm>(mode));
 }
 
 }  // namespace rprr

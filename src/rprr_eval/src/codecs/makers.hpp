@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "rprr_codec/dhcm.hpp"
 #include "rprr_eval/depth_codec.hpp"
 
 namespace rprr {
 
 /// Our own.
-DepthCodecResult make_dhcm();
+DepthCodecResult make_dhcm(DhcmMode mode);
 /// RVL of Wilson, "Fast lossless depth image compression" (2017), written from the paper.
 DepthCodecResult make_rvl();
 /// PNG of OpenCV, zlib's level 1 to 9.

@@ -7,17 +7,21 @@ namespace rprr {
 
 const std::vector<DepthCodecEntry>& depth_codecs() {
   static const std::vector<DepthCodecEntry> kCodecs = {
-      {"dhcm", "DHC-M", true, [] { return make_dhcm(); }},
-      {"rvl", "RVL, written from its paper", false, make_rvl},
-      {"lz4", "LZ4 over byte-split row deltas", false, make_lz4},
-      {"zstd1", "Zstandard level 1 over byte-split row deltas", false, [] { return make_zstd(1); }},
-      {"zstd3", "Zstandard level 3 over byte-split row deltas", false, [] { return make_zstd(3); }},
-      {"png1", "PNG level 1 (OpenCV)", false, [] { return make_png(1); }},
-      {"png6", "PNG level 6 (OpenCV)", false, [] { return make_png(6); }},
-      {"jpegls", "JPEG-LS (CharLS)", false, make_jpeg_ls},
-      {"jxl1", "JPEG XL lossless, effort 1 (libjxl)", false, [] { return make_jpeg_xl(1); }},
-      {"jxl3", "JPEG XL lossless, effort 3 (libjxl)", false, [] { return make_jpeg_xl(3); }},
-      {"ffv1", "FFV1 version 3 (libavcodec)", false, make_ffv1},
+      {"dhcm_fast", "DHC-M, mode fast", DhcmMode::kFast, [] { return make_dhcm(DhcmMode::kFast); }},
+      {"dhcm", "DHC-M, mode default", DhcmMode::kDefault,
+       [] { return make_dhcm(DhcmMode::kDefault); }},
+      {"dhcm_small", "DHC-M, mode small", DhcmMode::kSmall,
+       [] { return make_dhcm(DhcmMode::kSmall); }},
+      {"rvl", "RVL, written from its paper", {}, make_rvl},
+      {"lz4", "LZ4 over byte-split row deltas", {}, make_lz4},
+      {"zstd1", "Zstandard level 1 over byte-split row deltas", {}, [] { return make_zstd(1); }},
+      {"zstd3", "Zstandard level 3 over byte-split row deltas", {}, [] { return make_zstd(3); }},
+      {"png1", "PNG level 1 (OpenCV)", {}, [] { return make_png(1); }},
+      {"png6", "PNG level 6 (OpenCV)", {}, [] { return make_png(6); }},
+      {"jpegls", "JPEG-LS (CharLS)", {}, make_jpeg_ls},
+      {"jxl1", "JPEG XL lossless, effort 1 (libjxl)", {}, [] { return make_jpeg_xl(1); }},
+      {"jxl3", "JPEG XL lossless, effort 3 (libjxl)", {}, [] { return make_jpeg_xl(3); }},
+      {"ffv1", "FFV1 version 3 (libavcodec)", {}, make_ffv1},
   };
   return kCodecs;
 }
@@ -39,7 +43,7 @@ Result<std::vector<NamedDepthCodec>> make_depth_codecs(const std::vector<std::st
     }
     DepthCodecResult codec = entry->make();
     if (codec) {
-      made.push_back({name, std::move(*codec)});
+      made.push_back({name, entry->ours, std::move(*codec)});
     } else if (names.empty()) {
       notes.push_back(name + ": " + codec.reason());
     } else {
