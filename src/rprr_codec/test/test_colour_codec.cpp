@@ -79,5 +79,22 @@ TEST(ColourCodec, WrongInputsAreErrors) {
   }
 }
 
+TEST(ColourPayloadSize, IsThatOfTheImageAndOnlyOfAWholePayload) {
+  const cv::Mat image = synthetic::colourful(61, 9);
+  Result<Bytes> payload = (*make_colour_encoder("pgf", 6))->encode(image);
+  ASSERT_TRUE(payload);
+  const Result<cv::Size> size = colour_payload_size("pgf", *payload);
+  ASSERT_TRUE(size) << size.reason();
+  EXPECT_EQ(*size, image.size());
+  EXPECT_FALSE(colour_payload_size("jpeg", *payload));
+  EXPECT_FALSE(colour_payload_size("pgf", {}));
+  payload->resize(payload->size() - 4);
+  (*payload)[2] = (*payload)[3] = 0xff;  // 65535 columns
+  seal(*payload);
+  EXPECT_FALSE(colour_payload_size("pgf", *payload));
+  payload->pop_back();
+  EXPECT_FALSE(colour_payload_size("pgf", *payload));
+}
+
 }  // namespace
 }  // namespace rprr

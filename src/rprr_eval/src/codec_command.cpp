@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands.hpp"
-#include "rprr_codec/colour_codec.hpp"
-#include "rprr_codec/dhcm.hpp"
-#include "rprr_eval/metrics.hpp"
-#include "rprr_eval/summary.hpp"
+#include "json_output.hpp"
+#include "rprr_eval/codec_survey.hpp"
 #include "rprr_sensor/tum_folder.hpp"
 
 namespace rprr {
@@ -25,36 +20,19 @@ namespace fs = std::filesystem;
 
 struct CodecArguments {
   std::vector<std::string> folders;
+  std::vector<std::string> codecs;
   std::string json;
+  std::string markdown;
   int quality = 6;
   int repeats = 3;
+  int draws = 3;
+  bool colour = true;
 };
 
 struct Images {
   std::vector<DepthFrame> depth;
   std::vector<cv::Mat> bgr;
 };
-
-// One frame through one codec.
-struct Trip {
-  std::size_t bytes = 0;
-  double encode_ms = 0.0;
-  double decode_ms = 0.0;
-  bool lossless = false;
-  double psnr = 99.0;
-};
-
-double milliseconds(const std::function<void()>& action) {
-  const auto start = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-bool same(const cv::Mat& left, const cv::Mat& right) {
-  return left.size() == right.size() && left.type() == right.type() &&
-         cv::norm(left, right, cv::NORM_INF) == 0.0;
-}
 
 // A TUM-layout folder, or any folder with 16-bit PNG images in it.
 Result<Images> read_images(const std::string& path) {
@@ -85,112 +63,78 @@ Result<Images> read_images(const std::string& path) {
   return images;
 }
 
-Trip dhcm_trip(DhcmEncoder& encoder, DhcmDecoder& decoder, const DepthFrame& frame) {
-  Trip trip;
-  Bytes bytes;
-  trip.encode_ms = milliseconds([&] { bytes = encoder.encode(frame); });
-  trip.bytes = bytes.size();
-  trip.decode_ms = milliseconds([&] {
-    const Result<DepthFrame> back = decoder.decode(bytes);
-    trip.lossless = back && same(back->counts, frame.counts);
-  });
-  return trip;
-}
-
-Trip png_trip(const DepthFrame& frame) {
-  Trip trip;
-  Bytes bytes;
-  trip.encode_ms = milliseconds([&] {
-    cv::imencode(".png", frame.counts, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
-  });
-  trip.bytes = bytes.size();
-  cv::Mat back;
-  trip.decode_ms = milliseconds([&] { back = cv::imdecode(bytes, cv::IMREAD_UNCHANGED); });
-  trip.lossless = same(back, frame.counts);
-  return trip;
-}
-
-Trip colour_trip(ColourEncoder& encoder, ColourDecoder& decoder, const cv::Mat& bgr) {
-  Trip trip;
-  Result<Bytes> bytes = Error{"not encoded"};
-  trip.encode_ms = milliseconds([&] { bytes = encoder.encode(bgr); });
-  if (!bytes) return trip;
-  trip.bytes = bytes->size();
-  Result<cv::Mat> back = Error{"not decoded"};
-  trip.decode_ms = milliseconds([&] { back = decoder.decode(encoder.name(), *bytes, bgr.size()); });
-  trip.psnr = back ? *psnr(*back, bgr) : 0.0;
-  trip.lossless = back && same(*back, bgr);
-  return trip;
-}
-
-// Medians over frames of the best of a few repeats each.
-template <typename Image>
-nlohmann::json measure(const std::string& codec, const std::string& folder,
-                       const std::vector<Image>& images, double raw_bytes_per_pixel, int repeats,
-                       const std::function<Trip(const Image&)>& trip) {
-  std::vector<double> encode, decode, quality, ratio;
-  bool lossless = true;
-  for (const Image& image : images) {
-    Trip best = trip(image);
-    for (int i = 1; i < repeats; ++i) {
-      const Trip again = trip(image);
-      best.encode_ms = std::min(best.encode_ms, again.encode_ms);
-      best.decode_ms = std::min(best.decode_ms, again.decode_ms);
-    }
-    encode.push_back(best.encode_ms);
-    decode.push_back(best.decode_ms);
-    quality.push_back(best.psnr);
-    lossless = lossless && best.lossless;
-    double pixels = 0.0;
-    if constexpr (std::is_same_v<Image, cv::Mat>) {
-      pixels = static_cast<double>(image.total());
-    } else {
-      pixels = static_cast<double>(image.counts.total());
-    }
-    ratio.push_back(pixels * raw_bytes_per_pixel / static_cast<double>(best.bytes));
+nlohmann::json json_of(const CodecFigures& figures) {
+  nlohmann::json line = {{"codec", figures.codec},         {"folder", figures.folder},
+                         {"frames", figures.frames},       {"ratio", figures.ratio},
+                         {"encode_ms", figures.encode_ms}, {"decode_ms", figures.decode_ms},
+                         {"lossless", figures.lossless}};
+  if (figures.colour && !figures.lossless) line["psnr"] = figures.psnr;
+  for (const SparseFigures& sparse : figures.sparse) {
+    line["sparse"].push_back({{"share", sparse.share},
+                              {"bits_per_pixel", sparse.bits_per_pixel},
+                              {"relative_bits", sparse.relative_bits},
+                              {"mask_bytes", sparse.mask_bytes}});
   }
-  nlohmann::json line = {{"codec", codec},
-                         {"folder", folder},
-                         {"frames", images.size()},
-                         {"ratio", median(ratio)},
-                         {"encode_ms", median(encode)},
-                         {"decode_ms", median(decode)},
-                         {"lossless", lossless}};
-  if (!lossless) line["psnr"] = median(quality);
   return line;
+}
+
+std::vector<CodecFigures> survey(const std::string& name, const Images& images,
+                                 const std::vector<NamedDepthCodec>& codecs,
+                                 const CodecArguments& arguments) {
+  auto figures = survey_depth(name, images.depth, codecs, arguments.repeats);
+  for (std::size_t i = 0; i < codecs.size(); ++i) {
+    if (!codecs[i].ours || arguments.draws == 0) continue;
+    figures[i].sparse =
+        survey_sparse(images.depth, *codecs[i].ours, {0.3, 0.1, 0.02}, arguments.draws);
+  }
+  if (images.bgr.empty() || !arguments.colour) return figures;
+  const auto encoder = make_colour_encoder("pgf", arguments.quality);
+  const auto decoder = make_local_colour_decoder();
+  figures.push_back(survey_colour(name, images.bgr, **encoder, *decoder, arguments.repeats));
+  figures.back().codec += std::to_string(arguments.quality);
+  return figures;
+}
+
+bool write_markdown(const std::string& path, const std::vector<CodecFigures>& figures) {
+  std::ofstream file(path);
+  file << codec_tables(figures);
+  if (!file.flush()) std::cerr << "cannot write " << path << "\n";
+  return file.good();
 }
 
 int run_codec(const CodecArguments& arguments) {
   cv::setNumThreads(1);  // figures are per core
-  std::ofstream file;
-  if (!arguments.json.empty()) file.open(arguments.json);
-  if (!arguments.json.empty() && !file) {
-    return std::cerr << "cannot write " << arguments.json << "\n", 1;
-  }
-  std::ostream& out = arguments.json.empty() ? std::cout : file;
-  auto colour = make_colour_encoder("pgf", arguments.quality);
-  if (!colour) return std::cerr << colour.reason() << "\n", 1;
-  const auto colour_decoder = make_local_colour_decoder();
-  DhcmEncoder encoder;
-  DhcmDecoder decoder;
+  std::vector<std::string> notes;
+  const auto codecs = make_depth_codecs(arguments.codecs, notes);
+  if (!codecs) return std::cerr << codecs.reason() << "\n", 1;
+  for (const std::string& note : notes) std::cerr << "left out: " << note << "\n";
+  JsonOutput json(arguments.json);
+  if (!json.good()) return 1;
+  std::vector<CodecFigures> all;
   for (const std::string& path : arguments.folders) {
     const Result<Images> images = read_images(path);
     if (!images) return std::cerr << images.reason() << "\n", 1;
     const std::string name = fs::path(path + "/").parent_path().filename().string();
     std::cerr << name << ": " << images->depth.size() << " frames\n";
-    out << measure<DepthFrame>(
-               "dhcm", name, images->depth, 2.0, arguments.repeats,
-               [&](const DepthFrame& frame) { return dhcm_trip(encoder, decoder, frame); })
-        << std::endl;
-    out << measure<DepthFrame>("png6", name, images->depth, 2.0, arguments.repeats, png_trip)
-        << std::endl;
-    if (images->bgr.empty()) continue;
-    out << measure<cv::Mat>(
-               "pgf" + std::to_string(arguments.quality), name, images->bgr, 3.0, arguments.repeats,
-               [&](const cv::Mat& bgr) { return colour_trip(**colour, *colour_decoder, bgr); })
-        << std::endl;
+    for (const CodecFigures& figures : survey(name, *images, *codecs, arguments)) {
+      json.write(json_of(figures));
+      all.push_back(figures);
+    }
   }
-  return 0;
+  const bool lossless = std::all_of(all.begin(), all.end(), [](const CodecFigures& figures) {
+    return figures.colour || figures.lossless;
+  });
+  if (!lossless) std::cerr << "a depth codec did not give back what it was given\n";
+  const bool written = arguments.markdown.empty() || write_markdown(arguments.markdown, all);
+  return lossless && written ? 0 : 1;
+}
+
+std::string known_codecs() {
+  std::string text;
+  for (const DepthCodecEntry& entry : depth_codecs()) {
+    text += "\n  " + entry.name + ": " + entry.description;
+  }
+  return text;
 }
 
 }  // namespace
@@ -199,16 +143,29 @@ void add_codec_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CodecArguments>();
   CLI::App* command = app.add_subcommand(
       "codec",
-      "Codecs over folders of frames: ratio to raw (16-bit depth, 24-bit colour), medians of "
-      "milliseconds a frame, one JSON object a line");
+      "Codecs over folders of frames, side by side: ratio to raw (16-bit depth, 24-bit colour), "
+      "medians of milliseconds of processor time a frame, one JSON object a line");
   command->add_option("folder", arguments->folders, "TUM-layout folders, or folders of 16-bit PNG")
       ->required();
+  command
+      ->add_option("--codecs", arguments->codecs,
+                   "depth codecs, separated by commas; all if not given:" + known_codecs())
+      ->delimiter(',');
   command->add_option("--quality", arguments->quality, "of PGF, 0 (lossless) to 30")
+      ->check(CLI::Range(0, 30))
       ->capture_default_str();
+  command->add_flag("!--no-colour", arguments->colour, "leave out PGF");
   command->add_option("--repeats", arguments->repeats, "best of so many runs for each frame")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command
+      ->add_option("--draws", arguments->draws,
+                   "random masks for each frame and share of blocks (30, 10, 2%) in DHC-M's sparse "
+                   "figures; 0 leaves them out")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--json", arguments->json, "write the JSON lines here");
+  command->add_option("--markdown", arguments->markdown, "write tables for people here");
   command->callback([arguments, &exit_code] { exit_code = run_codec(*arguments); });
 }
 

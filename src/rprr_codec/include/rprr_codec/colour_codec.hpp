@@ -29,6 +29,10 @@ class ColourDecoder {
   virtual Result<cv::Mat> decode(const std::string& codec, ByteView payload, cv::Size expected) = 0;
 };
 
+/// The image size that a payload of a codec states, for a decoder that was not told it otherwise:
+/// 1 to kMaxImageSide pixels a side. Errors: damaged, unknown. The pixels are not looked at.
+Result<cv::Size> colour_payload_size(const std::string& codec, ByteView payload);
+
 /// Names that make_colour_encoder takes.
 std::vector<std::string> colour_codecs();
 /// quality is the codec's own scale. pgf: 0 lossless, 1 finest, 30 coarsest. Errors: unknown name

@@ -17,6 +17,11 @@ class LocalDecoder : public ColourDecoder {
 
 }  // namespace
 
+Result<cv::Size> colour_payload_size(const std::string& codec, ByteView payload) {
+  if (codec == "pgf") return pgf_payload_size(payload);
+  return Error{"unknown colour codec '" + codec + "'"};
+}
+
 std::vector<std::string> colour_codecs() {
   return {"pgf"};
 }

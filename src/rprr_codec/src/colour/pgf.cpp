@@ -73,6 +73,20 @@ cv::Mat decode_image(ByteView pgf, cv::Size expected) {
   return bgr;
 }
 
+// Reads what stands before the PGF bytes: the size of the image.
+Result<cv::Size> open_container(ByteReader& reader) {
+  const auto version = reader.get<std::uint8_t>();
+  reader.get<std::uint8_t>();  // quality: stands in the PGF header as well
+  const int width = reader.get<std::uint16_t>();
+  const int height = reader.get<std::uint16_t>();
+  if (!reader.ok()) return Error{"colour payload damaged or cut short"};
+  if (version != kVersion) return Error{"colour payload of an unknown version"};
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
+    return Error{"colour payload states an impossible image size"};
+  }
+  return cv::Size(width, height);
+}
+
 cv::Mat widened(const cv::Mat& bgr) {
   const cv::Size size = coded_size(bgr.size());
   if (size == bgr.size()) return bgr;
@@ -102,20 +116,16 @@ Result<Bytes> PgfEncoder::encode(const cv::Mat& bgr) {
   return payload;
 }
 
+Result<cv::Size> pgf_payload_size(ByteView payload) {
+  ByteReader reader(unseal(payload));
+  return open_container(reader);
+}
+
 Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected) {
   ByteReader reader(unseal(payload));
-  const auto version = reader.get<std::uint8_t>();
-  reader.get<std::uint8_t>();  // quality: stands in the PGF header as well
-  const int width = reader.get<std::uint16_t>();
-  const int height = reader.get<std::uint16_t>();
-  if (!reader.ok()) return Error{"colour payload damaged or cut short"};
-  if (version != kVersion) return Error{"colour payload of an unknown version"};
-  if (width != expected.width || height != expected.height) {
-    return Error{"colour payload is of another size than expected"};
-  }
-  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
-    return Error{"colour payload states an impossible image size"};
-  }
+  const Result<cv::Size> size = open_container(reader);
+  if (!size) return Error{size.reason()};
+  if (*size != expected) return Error{"colour payload is of another size than expected"};
   const ByteView pgf = reader.get_view(reader.left());
   return guarded<cv::Mat>("decoding PGF", [&] {
     const cv::Mat image = decode_image(pgf, coded_size(expected));

@@ -25,4 +25,7 @@ class PgfEncoder : public ColourEncoder {
 /// libpgf is not safe against hostile bytes: call it in a process that may die.
 Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected);
 
+/// What its container states.
+Result<cv::Size> pgf_payload_size(ByteView payload);
+
 }  // namespace rprr

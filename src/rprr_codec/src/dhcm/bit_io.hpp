@@ -9,10 +9,21 @@
 
 namespace rprr::dhcm {
 
-/// Appends bits to bytes, the least significant bit of a byte first.
+/// Eight bytes, the first one lowest.
+inline std::uint64_t load64(const std::uint8_t* bytes) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes, sizeof(value));
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  value = __builtin_bswap64(value);
+#endif
+  return value;
+}
+
+/// Appends bits to bytes, the least significant bit of a byte first. Between the first put and
+/// finish the vector is longer than what it holds.
 class BitWriter {
  public:
-  explicit BitWriter(Bytes& out) : out_(out) {}
+  explicit BitWriter(Bytes& out) : out_(out), at_(out.size()) {}
 
   /// At most 32 bits; those of value above count must be 0.
   void put(std::uint32_t value, int count) {
@@ -22,6 +33,7 @@ class BitWriter {
   }
   /// Pads the last byte with zeros. Nothing may be put afterwards.
   void finish() {
+    out_.resize(at_);
     for (; filled_ > 0; filled_ -= 8) {
       out_.push_back(static_cast<std::uint8_t>(accumulator_));
       accumulator_ >>= 8;
@@ -29,17 +41,22 @@ class BitWriter {
   }
 
  private:
+  static constexpr std::size_t kLeastRoom = 4096;
+
   void flush_word() {
+    if (out_.size() < at_ + 4) out_.resize(2 * at_ + kLeastRoom);
     const std::uint8_t raw[4] = {static_cast<std::uint8_t>(accumulator_),
                                  static_cast<std::uint8_t>(accumulator_ >> 8),
                                  static_cast<std::uint8_t>(accumulator_ >> 16),
                                  static_cast<std::uint8_t>(accumulator_ >> 24)};
-    out_.insert(out_.end(), raw, raw + 4);
+    std::memcpy(out_.data() + at_, raw, sizeof(raw));
+    at_ += 4;
     accumulator_ >>= 32;
     filled_ -= 32;
   }
 
   Bytes& out_;
+  std::size_t at_;
   std::uint64_t accumulator_ = 0;
   int filled_ = 0;  // bits in the accumulator, below 32 between calls
 };
@@ -84,14 +101,6 @@ class BitReader {
   }
 
  private:
-  static std::uint64_t load64(const std::uint8_t* bytes) {
-    std::uint64_t value = 0;
-    std::memcpy(&value, bytes, sizeof(value));
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    value = __builtin_bswap64(value);
-#endif
-    return value;
-  }
   void refill_near_end() {
     for (; filled_ < 56; filled_ += 8) {
       if (at_ < end_) {

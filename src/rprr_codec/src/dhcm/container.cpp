@@ -8,11 +8,11 @@
 namespace rprr::dhcm {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
-constexpr std::uint8_t kModeBits = 0x03;
+constexpr std::uint8_t kBodyBits = 0x03;
 constexpr std::uint8_t kMasked = 0x04;
 constexpr std::uint8_t kPlainUnit = 0x08;  // f64 metres per count; else f32 counts per metre
-constexpr std::uint8_t kKnownBits = kModeBits | kMasked | kPlainUnit;
+constexpr int kPixelsShift = 4;
+constexpr int kModeShift = 6;
 constexpr std::size_t kLengthAt = 6;
 
 }  // namespace
@@ -22,8 +22,10 @@ void begin(const Header& header, Bytes& out) {
   const auto per_metre = static_cast<float>(1.0 / header.unit);
   const bool plain = 1.0 / static_cast<double>(per_metre) != header.unit;
   ByteWriter writer;
-  writer.put(kVersion);
-  writer.put(static_cast<std::uint8_t>(static_cast<std::uint8_t>(header.mode) |
+  writer.put(static_cast<std::uint8_t>(kVersion));
+  writer.put(static_cast<std::uint8_t>(static_cast<int>(header.body) |
+                                       static_cast<int>(header.pixels) << kPixelsShift |
+                                       static_cast<int>(header.mode) << kModeShift |
                                        (header.masked ? kMasked : 0) | (plain ? kPlainUnit : 0)));
   writer.put(static_cast<std::uint16_t>(header.width));
   writer.put(static_cast<std::uint16_t>(header.height));
@@ -57,10 +59,13 @@ Result<Opened> open(ByteView payload) {
                                                  : 1.0 / static_cast<double>(reader.get<float>());
   if (!reader.ok()) return Error{"depth payload damaged or cut short"};
   if (version != kVersion) return Error{"depth payload of an unknown version"};
-  if ((flags & ~kKnownBits) != 0 || (flags & kModeBits) > 1) {
-    return Error{"depth payload in an unknown mode"};
-  }
-  opened.header.mode = static_cast<Mode>(flags & kModeBits);
+  const int body = flags & kBodyBits;
+  const int pixels = flags >> kPixelsShift & 3;
+  const int mode = flags >> kModeShift & 3;
+  if (body > 2 || pixels > 2 || mode > 2) return Error{"depth payload in an unknown mode"};
+  opened.header.body = static_cast<Body>(body);
+  opened.header.pixels = static_cast<DhcmPixels>(pixels);
+  opened.header.mode = static_cast<DhcmMode>(mode);
   opened.header.masked = (flags & kMasked) != 0;
   const Header& header = opened.header;
   if (header.width < 1 || header.height < 1 || header.width > kMaxImageSide ||

@@ -3,22 +3,27 @@
 
 #include <cstdint>
 
+#include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/wire.hpp"
 
 namespace rprr::dhcm {
 
 /// How the pixels are written.
-enum class Mode : std::uint8_t { kStored = 0, kCoded = 1 };
+enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kGroups = 2 };
 
 /// What stands before the pixels (doc/dhcm.md).
 struct Header {
-  Mode mode = Mode::kCoded;
+  Body body = Body::kEvents;
+  DhcmMode mode = DhcmMode::kDefault;
+  DhcmPixels pixels = DhcmPixels::kCounts;
   bool masked = false;  // only the blocks of a mask, which is not in the payload
   int width = 0;
   int height = 0;
   double unit = 0.001;
 };
+
+constexpr int kVersion = 2;
 
 /// Writes the header with room for the length of the body, which is appended by the caller.
 void begin(const Header& header, Bytes& out);

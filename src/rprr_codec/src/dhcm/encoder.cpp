@@ -1,101 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "dhcm/container.hpp"
-#include "dhcm/scan.hpp"
-#include "dhcm/tables.hpp"
+#include "dhcm/events.hpp"
+#include "dhcm/float_image.hpp"
+#include "dhcm/groups.hpp"
 #include "dhcm/values.hpp"
 #include "rprr_codec/dhcm.hpp"
+#include "rprr_geometry/camera.hpp"
 
 namespace rprr {
 namespace dhcm {
-
-// A symbol in one of the tables and the plain bits behind it.
-struct Token {
-  std::uint8_t table;
-  std::uint8_t symbol;
-  std::uint16_t extra;
-};
-
 namespace {
 
-// First pass: pixels become tokens, and the tokens of each table are counted.
-class TokenCoder {
- public:
-  TokenCoder(std::vector<Token>& tokens, Histograms& histograms)
-      : tokens_(tokens), histograms_(histograms) {
-    tokens_.clear();
-    for (auto& histogram : histograms_) histogram.fill(0);
-  }
-
-  /// Ranks (or readings) of the row that is scanned next; 0 = no reading.
-  void begin_row(const std::uint16_t* ranks) { ranks_ = ranks; }
-
-  int run(int context, int guess, int u) {
-    Run& run = runs_[static_cast<std::size_t>(context)];
-    if (run.token == kNone) {
-      run.token = tokens_.size();
-      run.length = 0;
-      tokens_.push_back({static_cast<std::uint8_t>(kRunTables + context), 0, 0});
-    }
-    const int value = at(u);
-    if (value == (context == kInHole ? kNoReading : guess)) {
-      if (++run.length == kRunLimit) end_run(run);
-      return value;
-    }
-    end_run(run);
-    return pixel(context, guess, u);
-  }
-
-  int pixel(int context, int guess, int u) {
-    const int value = at(u);
-    if (value == kNoReading) {
-      add(context, {kHoleSymbol, 0, 0});
-    } else {
-      add(context, split_number(fold(static_cast<std::uint16_t>(value - guess))));
-    }
-    return value;
-  }
-
-  void end() {
-    for (Run& run : runs_) {
-      if (run.token != kNone) end_run(run);
-    }
-  }
-
- private:
-  static constexpr std::size_t kNone = ~std::size_t{0};
-  struct Run {
-    std::size_t token = kNone;  // where its length will stand
-    std::uint32_t length = 0;
-  };
-
-  int at(int u) const { return ranks_[u] == 0 ? kNoReading : ranks_[u]; }
-  void add(int table, const Split& split) {
-    tokens_.push_back({static_cast<std::uint8_t>(table), split.symbol, split.extra});
-    ++histograms_[static_cast<std::size_t>(table)][split.symbol];
-  }
-  void end_run(Run& run) {
-    const Split split = split_number(run.length);
-    Token& token = tokens_[run.token];
-    token.symbol = split.symbol;
-    token.extra = split.extra;
-    ++histograms_[token.table][split.symbol];
-    run.token = kNone;
-  }
-
-  std::vector<Token>& tokens_;
-  Histograms& histograms_;
-  std::array<Run, kRunContexts> runs_;
-  const std::uint16_t* ranks_ = nullptr;
-};
-
 // Second pass.
-void write_tokens(const std::vector<Token>& tokens, const EncodeTables& tables, BitWriter& bits) {
-  for (const Token& token : tokens) {
-    const EncodeTable::Word& word = tables[token.table].words[token.symbol];
-    bits.put(word.code | static_cast<std::uint32_t>(token.extra) << word.length,
-             word.length + extra_bits_of(token.symbol));
+void write_events(const EventCoder& coder, const EncodeTables& tables, BitWriter& bits) {
+  for (std::size_t i = 0; i < coder.event_count(); ++i) {
+    const Event& event = coder.events()[i];
+    const EncodeTable::Word& word = tables[event.context].words[event.symbol];
+    const int extra = event.symbol == kHoleSymbol ? 0 : extra_bits_of(event.symbol);
+    bits.put(word.code | static_cast<std::uint32_t>(event.extra) << word.length,
+             word.length + extra);
+    const Split run = split_number(event.run);
+    const EncodeTable::Word& length =
+        tables[static_cast<std::size_t>(run_table(event.context))].words[run.symbol];
+    bits.put(length.code, length.length);
+    if (run.extra_bits > 0) bits.put(run.extra, run.extra_bits);
   }
 }
 
@@ -107,16 +39,24 @@ struct DhcmEncoder::Buffers {
   std::vector<std::uint16_t> rank_of;  // by reading
   std::vector<std::uint16_t> row;
   dhcm::ValueTable values;
-  dhcm::Surface surface;
-  std::vector<dhcm::Token> tokens;
+  dhcm::EventCoder coder;
   dhcm::Histograms histograms;
   dhcm::EncodeTables tables;
+  dhcm::GroupCoder groups;
+  std::array<dhcm::Histogram, dhcm::kGroupContexts> group_histograms;
+  std::array<dhcm::EncodeTable, dhcm::kGroupContexts> group_tables;
 
-  Bytes encode(const DepthFrame& frame, const BlockMask* mask);
+  Bytes encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
+               DhcmPixels pixels = DhcmPixels::kCounts);
 
  private:
+  void collect_groups(const DepthFrame& frame, const BlockMask* mask, bool ranked);
+  Bytes write_events(const dhcm::Header& header, bool ranked);
+  Bytes write_groups(const dhcm::Header& header, bool ranked);
+  void take_row(const DepthFrame& frame, int v, bool ranked);
   bool rank_values(const DepthFrame& frame, dhcm::Segments& segments);
-  void collect_tokens(const DepthFrame& frame, dhcm::Segments& segments, bool ranked);
+  void collect_events(const DepthFrame& frame, dhcm::Segments& segments, bool ranked,
+                      const dhcm::DirectContexts& direct);
   static Bytes stored(const DepthFrame& frame, dhcm::Segments& segments, dhcm::Header header);
 };
 
@@ -130,31 +70,39 @@ bool DhcmEncoder::Buffers::rank_values(const DepthFrame& frame, dhcm::Segments& 
   }
   values.collect(occurs);
   if (!values.pays(segments.pixels())) return false;
-  rank_of.assign(65536, 0);
+  // What does not occur keeps what it had: nobody asks for it.
+  rank_of.resize(65536, 0);
   std::uint16_t rank = 0;
   for (const std::uint16_t value : values.values()) rank_of[value] = ++rank;
   return true;
 }
 
-void DhcmEncoder::Buffers::collect_tokens(const DepthFrame& frame, dhcm::Segments& segments,
-                                          bool ranked) {
-  surface.reset(frame.width());
-  row.resize(static_cast<std::size_t>(frame.width()));
-  dhcm::TokenCoder coder(tokens, histograms);
-  for (int v = 0; v < frame.height(); ++v) {
-    const auto* in = frame.counts.ptr<std::uint16_t>(v);
-    if (ranked) {
-      for (std::size_t u = 0; u < row.size(); ++u) row[u] = rank_of[in[u]];
-    }
-    coder.begin_row(ranked ? row.data() : in);
-    dhcm::scan_row(segments.of_row(v), surface, coder);
+// Ranks or readings of a row; the buffer is longer than that.
+void DhcmEncoder::Buffers::take_row(const DepthFrame& frame, int v, bool ranked) {
+  const auto* in = frame.counts.ptr<std::uint16_t>(v);
+  const auto width = static_cast<std::size_t>(frame.width());
+  if (ranked) {
+    std::transform(in, in + width, row.begin(),
+                   [this](std::uint16_t value) { return rank_of[value]; });
+  } else {
+    std::copy(in, in + width, row.begin());
   }
-  coder.end();
+}
+
+void DhcmEncoder::Buffers::collect_events(const DepthFrame& frame, dhcm::Segments& segments,
+                                          bool ranked, const dhcm::DirectContexts& direct) {
+  row.assign(static_cast<std::size_t>(frame.width() + dhcm::kLanes), 0);
+  coder.begin(frame.width(), direct);
+  for (int v = 0; v < frame.height(); ++v) {
+    take_row(frame, v, ranked);
+    coder.row(row.data(), segments.of_row(v));
+  }
+  coder.finish(histograms);
 }
 
 Bytes DhcmEncoder::Buffers::stored(const DepthFrame& frame, dhcm::Segments& segments,
                                    dhcm::Header header) {
-  header.mode = dhcm::Mode::kStored;
+  header.body = dhcm::Body::kStored;
   Bytes out;
   dhcm::begin(header, out);
   out.reserve(out.size() + 2 * segments.pixels() + 4);
@@ -171,37 +119,99 @@ Bytes DhcmEncoder::Buffers::stored(const DepthFrame& frame, dhcm::Segments& segm
   return out;
 }
 
-Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mask) {
+void DhcmEncoder::Buffers::collect_groups(const DepthFrame& frame, const BlockMask* mask,
+                                          bool ranked) {
+  const BlockGrid grid(frame.width(), frame.height());
+  row.assign(static_cast<std::size_t>(grid.columns) * dhcm::kLanes, 0);
+  groups.begin(grid, mask);
+  for (int v = 0; v < frame.height(); ++v) {
+    take_row(frame, v, ranked);
+    groups.row(row.data(), v);
+  }
+}
+
+Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
+                                   DhcmPixels pixels) {
   dhcm::Segments segments(BlockGrid(frame.width(), frame.height()), mask);
-  const dhcm::Header header = {dhcm::Mode::kCoded, mask != nullptr, frame.width(), frame.height(),
+  const bool fast = mode == DhcmMode::kFast;
+  const dhcm::Header header = {fast ? dhcm::Body::kGroups : dhcm::Body::kEvents,
+                               mode,
+                               pixels,
+                               mask != nullptr,
+                               frame.width(),
+                               frame.height(),
                                frame.unit};
   const bool ranked = rank_values(frame, segments);
-  collect_tokens(frame, segments, ranked);
   Bytes out;
-  dhcm::begin(header, out);
-  if (!tokens.empty()) {
-    dhcm::BitWriter bits(out);
-    bits.put(ranked ? 1 : 0, 1);
-    if (ranked) values.write(bits);
-    dhcm::write_tables(histograms, bits, tables);
-    dhcm::write_tokens(tokens, tables, bits);
-    bits.finish();
+  if (fast) {
+    collect_groups(frame, mask, ranked);
+    out = write_groups(header, ranked);
+  } else {
+    collect_events(frame, segments, ranked, {});
+    out = write_events(header, ranked);
+  }
+  if (mode == DhcmMode::kSmall) {
+    collect_events(frame, segments, ranked, coder.better_direct(histograms));
+    Bytes other = write_events(header, ranked);
+    if (other.size() < out.size()) out = std::move(other);
   }
   if (out.size() > 2 * segments.pixels() + 32) return stored(frame, segments, header);
   dhcm::finish(out);
   return out;
 }
 
-DhcmEncoder::DhcmEncoder() : buffers_(std::make_unique<Buffers>()) {
+Bytes DhcmEncoder::Buffers::write_events(const dhcm::Header& header, bool ranked) {
+  Bytes out;
+  dhcm::begin(header, out);
+  if (coder.event_count() == 0) return out;
+  dhcm::BitWriter bits(out);
+  bits.put(ranked ? 1 : 0, 1);
+  if (ranked) values.write(bits);
+  dhcm::write_tables(histograms.data(), dhcm::kTables, bits, tables.data());
+  dhcm::write_events(coder, tables, bits);
+  bits.finish();
+  return out;
+}
+
+Bytes DhcmEncoder::Buffers::write_groups(const dhcm::Header& header, bool ranked) {
+  Bytes out;
+  dhcm::begin(header, out);
+  if (groups.empty()) return out;
+  dhcm::BitWriter bits(out);
+  bits.put(ranked ? 1 : 0, 1);
+  if (ranked) values.write(bits);
+  groups.count(group_histograms);
+  dhcm::write_tables(group_histograms.data(), dhcm::kGroupContexts, bits, group_tables.data());
+  groups.write(group_tables, bits);
+  bits.finish();
+  return out;
+}
+
+DhcmEncoder::DhcmEncoder(DhcmMode mode) : buffers_(std::make_unique<Buffers>()), mode_(mode) {
 }
 DhcmEncoder::~DhcmEncoder() = default;
 
 Bytes DhcmEncoder::encode(const DepthFrame& frame) {
-  return buffers_->encode(frame, nullptr);
+  return buffers_->encode(frame, nullptr, mode_);
 }
 
 Bytes DhcmEncoder::encode(const DepthFrame& frame, const BlockMask& blocks) {
-  return buffers_->encode(frame, &blocks);
+  return buffers_->encode(frame, &blocks, mode_);
+}
+
+Result<Bytes> DhcmEncoder::encode_float(const cv::Mat& metres, double step) {
+  if (metres.type() != CV_32FC1) return Error{"depth image is not 32FC1"};
+  if (metres.empty() || metres.cols > kMaxImageSide || metres.rows > kMaxImageSide) {
+    return Error{"depth image has an impossible size"};
+  }
+  if (!std::isfinite(step) || step < 0.0)
+    return Error{"quantisation step is negative or no number"};
+  if (step > 0.0) {
+    const Result<DepthFrame> frame = dhcm::quantise(metres, step);
+    if (!frame) return Error{frame.reason()};
+    return buffers_->encode(*frame, nullptr, mode_, DhcmPixels::kQuantisedFloat);
+  }
+  return dhcm::pack_float(metres, mode_, [this](const DepthFrame& plane) { return encode(plane); });
 }
 
 }  // namespace rprr

@@ -27,22 +27,26 @@ Group joined(const Group& group, const Histogram& other) {
   return Group(sum);
 }
 
-void write_group(const Group& group, int first, int end, BitWriter& bits, EncodeTables& tables) {
+void write_group(const Group& group, int first, int end, BitWriter& bits, EncodeTable* tables) {
   const EncodeTable table(group.lengths);
   for (int t = first; t < end; ++t) {
     bits.put(t == first ? 0 : 1, 1);
     if (t == first) write_lengths(group.lengths, bits);
-    tables[static_cast<std::size_t>(t)] = table;
+    tables[t] = table;
   }
 }
 
 }  // namespace
 
-void write_tables(const Histograms& histograms, BitWriter& bits, EncodeTables& tables) {
+std::uint64_t coded_bits(const Histogram& histogram) {
+  return Group(histogram).bits;
+}
+
+void write_tables(const Histogram* histograms, int count, BitWriter& bits, EncodeTable* tables) {
   int first = 0;
   Group group(histograms[0]);
-  for (int t = 1; t < kTables; ++t) {
-    const Group own(histograms[static_cast<std::size_t>(t)]);
+  for (int t = 1; t < count; ++t) {
+    const Group own(histograms[t]);
     Group both = joined(group, own.histogram);
     if (both.bits <= group.bits + own.bits) {
       group = both;
@@ -52,11 +56,11 @@ void write_tables(const Histograms& histograms, BitWriter& bits, EncodeTables& t
       first = t;
     }
   }
-  write_group(group, first, kTables, bits, tables);
+  write_group(group, first, count, bits, tables);
 }
 
-bool read_tables(BitReader& bits, DecodeTables& tables) {
-  for (std::size_t t = 0; t < kTables; ++t) {
+bool read_tables(BitReader& bits, int count, DecodeTable* tables) {
+  for (int t = 0; t < count; ++t) {
     const bool shared = bits.get(1) != 0;
     if (shared && t == 0) return false;
     if (shared) {

@@ -68,7 +68,7 @@ bool ValueTable::read(BitReader& bits) {
     bits.refill();
     const DecodeTable::Entry entry = table.entries[bits.peek(kMaxCodeLength)];
     bits.skip(entry.length);
-    if (entry.symbol >= kNumberSymbols) return false;
+    if (entry.symbol >= kResidualSymbols) return false;
     const int extra_bits = extra_bits_of(entry.symbol);
     const std::uint32_t number = base_of(entry.symbol) + bits.peek(extra_bits);
     bits.skip(extra_bits);
