@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dhcm/groups.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace rprr::dhcm {
 namespace {
 
@@ -50,12 +53,34 @@ unsigned any_of_lanes(Lanes lanes) {
   return static_cast<unsigned>(all_bits & 0xFFFFu);
 }
 
+constexpr std::array<std::uint8_t, 256> make_kinds() {
+  std::array<std::uint8_t, 256> kinds{};
+  kinds[2] = kUpOnly;
+  kinds[1] = kDownOnly;
+  int width = 2;
+  for (unsigned bits = 3; bits < 256; ++bits) {
+    while (bits >> width != 0) ++width;
+    kinds[bits] = static_cast<std::uint8_t>(kNarrow + width - 2);
+  }
+  return kinds;
+}
+
+// By the bits that are set in any residual; from a table since it is hard to foresee.
 int kind_of(unsigned bits) {
-  if (bits == 0) return kSame;
-  if (bits == 2) return kUpOnly;
-  if (bits == 1) return kDownOnly;
-  if (bits > 255) return kWide;
-  return kNarrow + floor_log2(bits) - 1;
+  static constexpr std::array<std::uint8_t, 256> kKinds = make_kinds();
+  return bits < 256 ? static_cast<int>(kKinds[bits]) : static_cast<int>(kWide);
+}
+
+// The residuals of kinds up to kNarrow side by side, in no, one or two bits each. Without branches:
+// which kind it is is hard to foresee.
+std::uint32_t narrow_bits(const std::array<std::uint16_t, kLanes>& residuals, int kind) {
+  static constexpr std::int16_t kPlaces[2][kLanes] = {{1, 2, 4, 8, 16, 32, 64, 128},
+                                                      {1, 4, 16, 64, 256, 1024, 4096, 16384}};
+  Lanes lanes;
+  std::memcpy(&lanes, residuals.data(), sizeof(lanes));
+  const std::uint32_t bits = any_of_lanes(lanes * load(kPlaces[kind == kNarrow ? 1 : 0]));
+  const std::uint32_t used = (1u << (kLanes * bits_of_kind(kind))) - 1u;
+  return bits >> (kind == kUpOnly ? 1 : 0) & used;
 }
 
 // Without a row above, each pixel is a difference to the one before.
@@ -155,14 +180,17 @@ void GroupCoder::write(const std::array<EncodeTable, kGroupContexts>& tables,
     bits.put(word.code | static_cast<std::uint32_t>(group.holes) << word.length,
              word.length + ((group.symbol & 1) != 0 ? 8 : 0));
     const int kind = group.symbol / 2;
-    if (kind == kSame) continue;
-    const auto& residuals = residuals_[next++];
+    const auto& residuals = residuals_[next];
+    next += kind != kSame ? 1 : 0;
     const int width = bits_of_kind(kind);
-    const int shift = kind == kUpOnly ? 1 : 0;
+    if (kind <= kNarrow) {
+      bits.put(narrow_bits(residuals, kind), kLanes * width);
+      continue;
+    }
     for (int half = 0; half < kLanes; half += 4) {
       std::uint64_t value = 0;
       for (int i = 3; i >= 0; --i) {
-        value = value << width | residuals[static_cast<std::size_t>(half + i)] >> shift;
+        value = value << width | residuals[static_cast<std::size_t>(half + i)];
       }
       bits.put(static_cast<std::uint32_t>(value), std::min(4 * width, 32));
       if (width == 16) bits.put(static_cast<std::uint32_t>(value >> 32), 32);

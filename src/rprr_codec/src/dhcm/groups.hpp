@@ -27,8 +27,9 @@ enum GroupKind : int {
 constexpr int kGroupSymbols = 2 * kGroupKinds;
 constexpr int kGroupContexts = 19;
 
+constexpr std::uint8_t kKindBits[kGroupKinds] = {0, 1, 1, 2, 3, 4, 5, 6, 7, 8, 16};
 inline int bits_of_kind(int kind) {
-  return kind < kNarrow ? (kind == kSame ? 0 : 1) : kind == kWide ? 16 : kind - kNarrow + 2;
+  return kKindBits[kind];
 }
 
 /// What a coder knows of the rows above, a group column each.
@@ -50,7 +51,8 @@ struct GroupSurface {
 };
 
 inline std::uint8_t category_of(int kind) {
-  return kind == kSame ? 0 : kind < kNarrow ? 1 : kind == kNarrow ? 2 : 3;
+  constexpr std::uint8_t kCategories[kGroupKinds] = {0, 1, 1, 2, 3, 3, 3, 3, 3, 3, 3};
+  return kCategories[kind];
 }
 
 /// First pass: rows of ranks (or readings), 0 = no reading.
