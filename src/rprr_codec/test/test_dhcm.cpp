@@ -52,6 +52,25 @@ TEST(Dhcm, EveryKindOfImageComesBack) {
   expect_round_trip(synthetic::constant(1, 8192, 1234), "highest");
 }
 
+// The one residual whose negative is itself.
+TEST(Dhcm, StepsOfHalfTheRangeComeBack) {
+  DepthFrame two = synthetic::constant(256, 256, 1);
+  two.counts(cv::Rect(40, 30, 100, 120)).setTo(32770);  // in a table of values
+  expect_round_trip(two, "two readings");
+  DepthFrame slope = synthetic::constant(256, 256, 0);
+  for (int v = 0; v < 256; ++v) {
+    for (int u = 0; u < 256; ++u) {
+      const bool far = (u / 16 + v / 16) % 2 == 1;
+      slope.counts.at<std::uint16_t>(v, u) =
+          static_cast<std::uint16_t>(1000 + 97 * v + u + (far ? 32768 : 0));
+    }
+  }
+  expect_round_trip(slope, "slope");
+  BlockMask mask(BlockGrid(256, 256));
+  for (int block = 0; block < mask.grid().count(); ++block) mask.set(block, block % 3 != 0);
+  expect_round_trip(slope, mask, "blocks of a slope");
+}
+
 TEST(Dhcm, LongRunsComeBack) {
   DepthFrame frame = synthetic::constant(1024, 300, 900);
   expect_round_trip(frame, "one surface");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rprr::dhcm {
@@ -45,10 +46,11 @@ inline std::uint32_t base_of(int symbol) {
   return (1u << power) | static_cast<std::uint32_t>((symbol - kDirect) & 1) << (power - 1);
 }
 
-/// Residuals modulo 2^16 to numbers, small ones first whatever their sign: 0, 1, -1, 2, -2, ...
+/// Residuals modulo 2^16 to numbers, small ones first whatever their sign: 0, 1, -1, 2, -2, ... up
+/// to 65535, which stands for -32768: 65536 would need a symbol more.
 inline std::uint32_t fold(std::uint16_t residual) {
   const auto value = static_cast<std::int32_t>(static_cast<std::int16_t>(residual));
-  return static_cast<std::uint32_t>(value > 0 ? 2 * value - 1 : -2 * value);
+  return static_cast<std::uint32_t>(value > 0 ? 2 * value - 1 : std::min(-2 * value, 65535));
 }
 inline std::uint16_t unfold(std::uint32_t number) {
   const auto half = static_cast<std::int32_t>((number + 1) >> 1);
