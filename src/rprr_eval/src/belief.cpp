@@ -19,13 +19,6 @@ constexpr double kShrinkage = 1.0;
 constexpr int kNewtonSteps = 60;
 constexpr TrueScene kScenes[] = {TrueScene::kRoom, TrueScene::kTurntable, TrueScene::kCorridor};
 
-double overlap_of(const PreviewPose& pose) {
-  const auto share = [](const Agreement& way) {
-    return way.valid > 0 ? static_cast<double>(way.in_view) / way.valid : 0.0;
-  };
-  return std::min(share(pose.b_in_a), share(pose.a_in_b));
-}
-
 // truth: nothing for frames of two places.
 void add_sample(const PoseFrame& a, const PoseFrame& b, const std::optional<Pose>& truth,
                 const Profile& profile, std::vector<BeliefSample>& samples) {
@@ -34,7 +27,8 @@ void add_sample(const PoseFrame& a, const PoseFrame& b, const std::optional<Pose
   if (!preview) return;
   PreviewPoseEstimator estimator(profile.preview.search);
   const PreviewPose found = estimator.estimate(a, *preview, b.camera, {});
-  if (overlap_of(found) < profile.preview.search.limits.min_overlap) return;
+  const double shared = std::min(found.b_in_a.shared(), found.a_in_b.shared());
+  if (shared < profile.preview.search.limits.min_overlap) return;
   BeliefSample sample;
   sample.evidence = found.evidence;
   if (truth) {

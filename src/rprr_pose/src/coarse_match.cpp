@@ -12,6 +12,8 @@ namespace {
 constexpr float kNearest = 0.1f;  // metres
 // Variance that counts as noise, so that flat patches do not correlate by chance, grey levels^2.
 constexpr float kFlatVariance = 20.0f;
+// Metres: what a camera's intrinsics throw further than that stays numbers in no projection.
+constexpr float kFarthest = 1e5f;
 constexpr float kFewest = 12.0f;  // cells that have to meet
 
 float median_depth(const PreviewView& view, float fallback) {
@@ -37,6 +39,7 @@ CoarseMatch::CoarseMatch(const PreviewView& moving, const PreviewView& fixed)
       const auto i = static_cast<std::size_t>(r * moving.width() + c);
       const float z = moving.z[i] > 0.0f ? moving.z[i] : typical_depth_;
       const Eigen::Vector3f p = moving.camera.unproject(c, r, 1.0).cast<float>() * z;
+      if (!(p.squaredNorm() < kFarthest * kFarthest)) continue;
       x_.push_back(p.x());
       y_.push_back(p.y());
       z_.push_back(p.z());

@@ -11,12 +11,8 @@ namespace {
 constexpr std::array<double, kEvidenceTerms> kSlopes = {2.28, 9.55, -10.54, -37.23, 11.37};
 constexpr double kConstant = -7.41;
 
-double share(int part, int whole) {
-  return whole > 0 ? static_cast<double>(part) / whole : 0.0;
-}
-
 double odd_share(const Agreement& way) {
-  return 1.0 - share(way.consistent + way.violating + way.hidden, way.in_view);
+  return 1.0 - way.of_shared(way.consistent + way.violating + way.hidden);
 }
 
 }  // namespace
@@ -26,8 +22,7 @@ PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double ma
   evidence.correlation = std::min(one.correlation, other.correlation);
   evidence.fine_correlation = std::min(one.fine_correlation, other.fine_correlation);
   evidence.odd = std::max(odd_share(one), odd_share(other));
-  evidence.violating =
-      std::max(share(one.violating, one.in_view), share(other.violating, other.in_view));
+  evidence.violating = std::max(one.of_shared(one.violating), other.of_shared(other.violating));
   evidence.margin = margin;
   return evidence;
 }

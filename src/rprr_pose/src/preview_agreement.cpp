@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rprr_pose/pinhole.hpp"
+
 namespace rprr {
 namespace {
 
@@ -72,6 +74,7 @@ Agreement agreement(const PreviewView& moving, const PreviewView& fixed, const P
   Agreement out;
   const Eigen::Matrix3f rotation = motion.linear().cast<float>();
   const Eigen::Vector3f translation = motion.translation().cast<float>();
+  const Pinhole fixed_camera(fixed.camera);
   Moments luma, blue, red, fine;
   // The fixed luma where the cells of the moving view land; NaN where they do not.
   std::vector<float> landed(moving.size(), std::nanf(""));
@@ -81,18 +84,15 @@ Agreement agreement(const PreviewView& moving, const PreviewView& fixed, const P
     const Eigen::Vector3f p =
         rotation * Eigen::Vector3f(moving.x[i], moving.y[i], moving.z[i]) + translation;
     if (p.z() < kNearest) continue;
-    const float u =
-        static_cast<float>(fixed.camera.fx) * p.x() / p.z() + static_cast<float>(fixed.camera.cx);
-    const float v =
-        static_cast<float>(fixed.camera.fy) * p.y() / p.z() + static_cast<float>(fixed.camera.cy);
-    const auto c = static_cast<int>(std::floor(u + 0.5f));
-    const auto r = static_cast<int>(std::floor(v + 0.5f));
-    if (c < 0 || r < 0 || c >= fixed.width() || r >= fixed.height()) continue;
-    const auto j = static_cast<std::size_t>(r * fixed.width() + c);
+    const float u = fixed_camera.fx * p.x() / p.z() + fixed_camera.cx;
+    const float v = fixed_camera.fy * p.y() / p.z() + fixed_camera.cy;
+    const int index = fixed_camera.index(u, v);
+    if (index < 0) continue;
+    const auto j = static_cast<std::size_t>(index);
     if (fixed.z[j] == 0.0f) continue;
     ++out.in_view;
     const float limit = tolerance(moving.sigma[i], fixed.sigma[j], p.z());
-    const Range range = range_around(fixed, c, r);
+    const Range range = range_around(fixed, index % fixed.width(), index / fixed.width());
     if (p.z() < range.least - 2.0f * limit) {
       ++out.violating;
     } else if (p.z() > range.most + 2.0f * limit) {

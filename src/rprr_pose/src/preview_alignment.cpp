@@ -30,10 +30,12 @@ struct Luma {
 
 // Bilinear value and slope; false outside.
 bool sample(const float* image, int width, int height, float u, float v, Luma& out) {
-  if (!(u >= 0.0f && v >= 0.0f)) return false;
+  if (!(u >= 0.0f && v >= 0.0f && u < static_cast<float>(width - 1) &&
+        v < static_cast<float>(height - 1))) {
+    return false;
+  }
   const auto c = static_cast<int>(u);
   const auto r = static_cast<int>(v);
-  if (c + 1 >= width || r + 1 >= height) return false;
   const float fu = u - static_cast<float>(c);
   const float fv = v - static_cast<float>(r);
   const float* p = image + r * width + c;

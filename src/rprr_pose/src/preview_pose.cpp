@@ -77,10 +77,6 @@ cv::Mat metres_of(const DepthFrame& depth) {
   return out;
 }
 
-double share(double part, double whole) {
-  return whole > 0 ? part / whole : 0.0;
-}
-
 // Of the aligned motion. Neighbours share their sensor's errors, so that the residuals' number says
 // too much: what they do to the estimate is taken from their sums over tiles, leaning on the
 // residuals' own variance where tiles are few. What both do not see (coding, noise in the slopes
@@ -120,9 +116,8 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
   candidate.b_in_a = agreement(b_[0], a_[0], candidate.motion);
   candidate.a_in_b = agreement(a_[0], b_[0], candidate.motion.inverse());
   const auto one_way = [](const Agreement& way) {
-    const double agreement =
-        share(way.consistent - 2.0 * way.violating - 0.5 * way.hidden, way.in_view);
-    return std::max(0.0, agreement) * std::pow(share(way.in_view, way.valid), kSharedPower);
+    const double agreement = way.of_shared(way.consistent - 2.0 * way.violating - 0.5 * way.hidden);
+    return std::max(0.0, agreement) * std::pow(way.shared(), kSharedPower);
   };
   const double geometry = 0.5 * (one_way(candidate.b_in_a) + one_way(candidate.a_in_b));
   const double colour = 0.5 * (candidate.b_in_a.correlation + candidate.b_in_a.fine_correlation);
@@ -137,7 +132,7 @@ bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   options.scatter = true;
   FixedView fixed = fine_;
   fixed.cells = &a_[0];
-  return align(points_of(b_[0], 2), fixed, options, candidate.motion, candidate.sums);
+  return align(refined_points_, fixed, options, candidate.motion, candidate.sums);
 }
 
 // Aligns every candidate a little further, then keeps the best distinct ones.
@@ -228,8 +223,7 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   out.covariance = a * covariance_of(best.sums) * a.transpose();
 
   const PreviewLimits& limits = options_.limits;
-  const double overlap = std::min(share(best.b_in_a.in_view, best.b_in_a.valid),
-                                  share(best.a_in_b.in_view, best.a_in_b.valid));
+  const double overlap = std::min(best.b_in_a.shared(), best.a_in_b.shared());
   if (overlap < limits.min_overlap) {
     out.status = PoseStatus::kLittleOverlap;
   } else if (out.evidence.violating > limits.max_violating) {
@@ -267,6 +261,7 @@ PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPrevie
                                            const Camera& b_camera, const std::vector<Pose>& warm) {
   prepare(a);
   b_ = pyramid(make_view(b, b_camera));
+  refined_points_ = points_of(b_[0], 2);
   for (const Pose& m_ab : warm) {
     Candidate candidate;
     candidate.motion = m_ab.inverse();

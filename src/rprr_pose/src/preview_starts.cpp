@@ -23,9 +23,9 @@ constexpr float kRotationTolerance = 0.5f;
 constexpr float kMotionTolerance = 0.3f;
 // Steps of the climb that follows: first and later ones, in units of these.
 constexpr std::array<double, 4> kClimb = {1.0, 1.0, 0.6, 0.36};
-// What a slide along a direction looks at, metres.
-constexpr int kSlides = 20;
-constexpr double kSlideStep = 0.18;
+// Where matches_along looks, metres.
+constexpr int kProbes = 20;
+constexpr double kProbeStep = 0.18;
 constexpr std::size_t kMostPeaks = 2;
 constexpr double kClimbDegrees = 8.0;
 constexpr double kClimbMetres = 0.15;  // per metre of typical depth
@@ -175,19 +175,19 @@ std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range)
 
 std::vector<double> matches_along(const CoarseMatch& match, const Pose& from,
                                   const Twist& direction) {
-  std::array<Judged, 2 * kSlides + 1> line;
-  for (int k = -kSlides; k <= kSlides; ++k) {
-    Judged& one = line[static_cast<std::size_t>(k + kSlides)];
-    one.motion = exp_se3(k * kSlideStep * direction) * from;
+  std::array<Judged, 2 * kProbes + 1> line;
+  for (int k = -kProbes; k <= kProbes; ++k) {
+    Judged& one = line[static_cast<std::size_t>(k + kProbes)];
+    one.motion = exp_se3(k * kProbeStep * direction) * from;
     judge(match, kMotionTolerance, one);
   }
   std::vector<std::pair<float, double>> peaks;
-  for (int k = 1 - kSlides; k < kSlides; ++k) {
-    const auto i = static_cast<std::size_t>(k + kSlides);
+  for (int k = 1 - kProbes; k < kProbes; ++k) {
+    const auto i = static_cast<std::size_t>(k + kProbes);
     const float score = line[i].score;
     if (std::abs(k) < 2 || score <= 0.0f) continue;
     if (score < line[i - 1].score || score <= line[i + 1].score) continue;
-    peaks.emplace_back(score, k * kSlideStep);
+    peaks.emplace_back(score, k * kProbeStep);
   }
   std::sort(peaks.begin(), peaks.end(), std::greater<>());
   std::vector<double> distances;

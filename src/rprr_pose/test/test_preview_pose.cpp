@@ -75,6 +75,31 @@ TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
             PoseStatus::kAccepted);
 }
 
+TEST(PreviewPose, NoCameraOfAPeerIsTooStrange) {
+  const PoseFramePtr a = textured_frame(Pose::Identity(), 1, "a");
+  const BlockPreview preview = sent_preview(*a);
+  for (const double focal : {0.0011, 0.01, 1.0, 1e4, 9.9e6}) {
+    for (const double centre : {0.0, -9.9e5, 9.9e5}) {
+      Camera camera = kTestCamera;
+      camera.fx = camera.fy = focal;
+      camera.cx = camera.cy = centre;
+      ASSERT_TRUE(camera.valid()) << "one that the wire lets through";
+      PreviewPoseEstimator estimator({});
+      const PreviewPose pose = estimator.estimate(*a, preview, camera, {Pose::Identity()});
+      EXPECT_NE(pose.status, PoseStatus::kAccepted) << focal << ", " << centre;
+    }
+  }
+}
+
+TEST(PreviewPose, NoWarmStartIsTooFarOff) {
+  Pose away = Pose::Identity();
+  away.translation().setConstant(1e30);
+  const Pose truth = test_motion(0.12, 7.0);
+  const PreviewPose found = estimate(truth, 1.0, {away});
+  EXPECT_TRUE(found.searched);
+  EXPECT_LT(translation_error(found.motion, truth), 0.03);
+}
+
 TEST(PreviewPose, AFrameWithoutColourIsSurvivedAndNotBelieved) {
   auto colourless = std::make_shared<PoseFrame>(*textured_frame(Pose::Identity(), 1, "a"));
   colourless->bgr.release();

@@ -19,14 +19,14 @@ struct Pinhole {
         width(camera.width),
         height(camera.height) {}
 
-  /// Index of the pixel nearest to pixel coordinates (u, v), or -1 outside.
+  /// Index of the pixel nearest to pixel coordinates (u, v), or -1 outside and for what is no
+  /// number: compared before they are converted, since a peer's camera may throw points anywhere.
   int index(float u, float v) const {
     u += 0.5f;
     v += 0.5f;
-    if (!(u >= 0.0f && v >= 0.0f)) return -1;
-    const auto c = static_cast<int>(u);
-    const auto r = static_cast<int>(v);
-    return c < width && r < height ? r * width + c : -1;
+    const bool inside =
+        u >= 0.0f && v >= 0.0f && u < static_cast<float>(width) && v < static_cast<float>(height);
+    return inside ? static_cast<int>(v) * width + static_cast<int>(u) : -1;
   }
   /// Of the pixel that the ray (x, y, 1) meets.
   int index_of_ray(float x, float y) const { return index(fx * x + cx, fy * y + cy); }

@@ -83,6 +83,7 @@ class PreviewPoseEstimator {
   Stamp prepared_ = -1;
   std::vector<PreviewView> a_;  // full block resolution first
   std::vector<PreviewView> b_;
+  MovingPoints refined_points_;  // of b_'s first, for refine()
   FixedView fine_;
 };
 
