@@ -75,6 +75,8 @@ std::string read_rest(const YAML::Node& file, Profile& profile) {
   read(file, "validation_min_pixels", profile.validation.min_pixels);
   read(file, "colour_codec", profile.codec.colour_codec);
   read(file, "colour_quality", profile.codec.colour_quality);
+  read(file, "edge_margin", profile.station.stitch.edge_margin);
+  read(file, "align", profile.station.synthesis.align);
   std::string wrong =
       choose(file, "protocol", "preview", true, "samples", false, profile.use_previews);
   if (!wrong.empty()) return wrong;
@@ -86,7 +88,7 @@ std::string read_rest(const YAML::Node& file, Profile& profile) {
   }
   if (wrong.empty()) {
     wrong = choose(file, "unknown_fill", "black", UnknownFill::kBlack, "smooth",
-                   UnknownFill::kSmooth, profile.station.unknown_fill);
+                   UnknownFill::kSmooth, profile.station.stitch.fill);
   }
   return wrong;
 }

@@ -46,7 +46,7 @@ TEST_F(ProfileTest, BothShippedOnesLoadByTheirNames) {
   EXPECT_EQ(paper->samples.max_iterations, 50);
   EXPECT_EQ(paper->samples.sample_count, 250);
   EXPECT_EQ(paper->station.synthesis.mode, Synthesis::kForward);
-  EXPECT_EQ(paper->station.unknown_fill, UnknownFill::kBlack);
+  EXPECT_EQ(paper->station.stitch.fill, UnknownFill::kBlack);
   EXPECT_EQ(paper->codec.fill, UnsentFill::kBlack);
 }
 

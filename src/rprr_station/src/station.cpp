@@ -43,7 +43,7 @@ Station::Station(StationOptions options, std::unique_ptr<ColourDecoder> colour)
     : options_(std::move(options)),
       decoder_(std::move(colour)),
       synthesizer_(options_.synthesis),
-      stitcher_(options_.unknown_fill) {
+      stitcher_(options_.stitch) {
   for (const std::string& robot : options_.robots) robots_[robot];
 }
 

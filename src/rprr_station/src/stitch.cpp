@@ -29,9 +29,10 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
                                       const BlockMask& depth_mask) {
   const BlockGrid& grid = mask.grid();
   const cv::Size size(grid.width, grid.height);
+  const bool colours_fit =
+      received_bgr.empty() || (received_bgr.size() == size && received_bgr.type() == CV_8UC3);
   if (predicted.bgr.size() != size || predicted.metres.size() != size ||
-      predicted.provenance.size() != size || received_bgr.size() != size ||
-      received_depth.counts.size() != size || received_bgr.type() != CV_8UC3 ||
+      predicted.provenance.size() != size || !colours_fit || received_depth.counts.size() != size ||
       received_depth.counts.type() != CV_16UC1 || !(received_depth.unit > 0) ||
       cv::Size(depth_mask.grid().width, depth_mask.grid().height) != size) {
     return Error{"prediction, received images and block masks are not of one size"};
@@ -41,22 +42,30 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
   predicted.provenance.copyTo(view.provenance);
   round_to_counts(predicted.metres, received_depth.unit, view.depth.counts);
   view.depth.unit = received_depth.unit;
+  predicted_depth_.create(size, CV_8UC1);
+  predicted_depth_.setTo(1);
 
   for (int block = 0; block < grid.count(); ++block) {
     const cv::Rect rect = grid.rect(block);
-    if (mask[block]) {
+    if (mask[block] && !received_bgr.empty()) {
       received_bgr(rect).copyTo(view.bgr(rect));
       view.provenance(rect).setTo(depth_mask[block] ? kReceived : kReceivedColour);
     }
-    if (depth_mask[block]) received_depth.counts(rect).copyTo(view.depth.counts(rect));
+    if (depth_mask[block]) {
+      received_depth.counts(rect).copyTo(view.depth.counts(rect));
+      predicted_depth_(rect).setTo(0);
+    }
   }
+  depth_edges_.clear(view.depth.counts, predicted_depth_);
 
   const double pixels = static_cast<double>(size.area());
   const int received = cv::countNonZero(view.provenance >= kReceivedColour);
+  const int base = cv::countNonZero(view.provenance == kBase);
   const int known = cv::countNonZero(view.provenance);
   view.share_received = received / pixels;
-  view.share_predicted = (known - received) / pixels;
-  if (fill_ == UnknownFill::kSmooth && known < size.area()) {
+  view.share_predicted = (known - received - base) / pixels;
+  view.share_base = base / pixels;
+  if (options_.fill == UnknownFill::kSmooth && known < size.area()) {
     filler_.fill(view.bgr, view.provenance);
     view.provenance.setTo(kFilled, view.provenance == kNothing);
   }

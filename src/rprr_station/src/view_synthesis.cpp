@@ -6,59 +6,12 @@
 #include <cstring>
 #include <opencv2/core.hpp>
 
-#include "rprr_geometry/pixel_map.hpp"
+#include "fetcher.hpp"
 
 namespace rprr {
 namespace {
 
-// Fetches colours of the reference image for points of the target view.
-class Fetcher {
- public:
-  Fetcher(const DepthFrame& depth, const cv::Mat& bgr, float tolerance)
-      : depth_(depth),
-        bgr_(bgr),
-        unit_(static_cast<float>(depth.unit)),
-        tolerance_(tolerance),
-        right_(static_cast<float>(depth.width() - 1)),
-        bottom_(static_cast<float>(depth.height() - 1)) {}
-
-  // Colour at (x, y), if the reference shows the surface at depth z there, or has no depth there.
-  bool fetch(float x, float y, float z, std::uint8_t* colour) const {
-    if (!(x >= -0.5f && y >= -0.5f && x < right_ + 0.5f && y < bottom_ + 0.5f)) return false;
-    x = std::clamp(x, 0.0f, right_);
-    y = std::clamp(y, 0.0f, bottom_);
-    const int nearest_u = static_cast<int>(x + 0.5f);
-    const int nearest_v = static_cast<int>(y + 0.5f);
-    const float seen = unit_ * depth_.counts.ptr<std::uint16_t>(nearest_v)[nearest_u];
-    if (seen > 0.0f && std::abs(seen - z) > tolerance_ * z) return false;
-    interpolate(x, y, colour);
-    return true;
-  }
-
- private:
-  void interpolate(float x, float y, std::uint8_t* colour) const {
-    const int u = static_cast<int>(x);
-    const int v = static_cast<int>(y);
-    const int u_step = u + 1 < bgr_.cols ? 3 : 0;
-    const auto* upper = bgr_.ptr<std::uint8_t>(v) + 3 * u;
-    const auto* lower = bgr_.ptr<std::uint8_t>(std::min(v + 1, bgr_.rows - 1)) + 3 * u;
-    // 7 bits each way: what 8-bit colours deserve.
-    const int right = static_cast<int>((x - static_cast<float>(u)) * 128.0f + 0.5f);
-    const int down = static_cast<int>((y - static_cast<float>(v)) * 128.0f + 0.5f);
-    for (int i = 0; i < 3; ++i) {
-      const int above = upper[i] * (128 - right) + upper[i + u_step] * right;
-      const int below = lower[i] * (128 - right) + lower[i + u_step] * right;
-      colour[i] = static_cast<std::uint8_t>((above * (128 - down) + below * down + 8192) >> 14);
-    }
-  }
-
-  const DepthFrame& depth_;
-  const cv::Mat& bgr_;
-  float unit_;
-  float tolerance_;
-  float right_;
-  float bottom_;
-};
+constexpr int kAlignment = 4;  // images are aligned at a quarter of their size
 
 void prepare(const Camera& camera, PredictedView& view) {
   const cv::Size size(camera.width, camera.height);
@@ -68,6 +21,68 @@ void prepare(const Camera& camera, PredictedView& view) {
   view.bgr.setTo(0);
 }
 
+float brightness(const std::uint8_t* bgr) {
+  return 0.25f * static_cast<float>(bgr[0] + 2 * bgr[1] + bgr[2]);
+}
+
+// Mean brightness of cells of side x side pixels, as far as the image goes.
+void reduce_brightness(const cv::Mat& bgr, int side, cv::Mat& out) {
+  out.create((bgr.rows + side - 1) / side, (bgr.cols + side - 1) / side, CV_32FC1);
+  out.setTo(0);
+  for (int v = 0; v < bgr.rows; ++v) {
+    const auto* from = bgr.ptr<std::uint8_t>(v);
+    auto* to = out.ptr<float>(v / side);
+    for (int u = 0; u < bgr.cols; ++u) to[u / side] += brightness(from + 3 * u);
+  }
+  for (int v = 0; v < out.rows; ++v) {
+    auto* to = out.ptr<float>(v);
+    const int height = std::min(side, bgr.rows - v * side);
+    for (int u = 0; u < out.cols; ++u) {
+      to[u] /= static_cast<float>(height * std::min(side, bgr.cols - u * side));
+    }
+  }
+}
+
+float sample(const cv::Mat& image, float x, float y) {
+  x = std::clamp(x, 0.0f, static_cast<float>(image.cols - 1));
+  y = std::clamp(y, 0.0f, static_cast<float>(image.rows - 1));
+  const int u = static_cast<int>(x);
+  const int v = static_cast<int>(y);
+  const int next = std::min(u + 1, image.cols - 1);
+  const auto* upper = image.ptr<float>(v);
+  const auto* lower = image.ptr<float>(std::min(v + 1, image.rows - 1));
+  const float across = x - static_cast<float>(u);
+  const float above = upper[u] + across * (upper[next] - upper[u]);
+  const float below = lower[u] + across * (lower[next] - lower[u]);
+  return above + (y - static_cast<float>(v)) * (below - above);
+}
+
+// Pixels and depth in the reference's view.
+struct Projected {
+  float* x;
+  float* y;
+  float* z;
+};
+
+// Places (column, row) of the target at depths z. Plain pointers, so that compilers vectorise it.
+void project(const PixelMap& map, const float* __restrict z, const float* __restrict column,
+             const float* __restrict row, int count, const Projected& out) {
+  const Eigen::Matrix3f m = map.map.cast<float>();
+  const float m00 = m(0, 0), m01 = m(0, 1), m02 = m(0, 2), t0 = map.offset.x();
+  const float m10 = m(1, 0), m11 = m(1, 1), m12 = m(1, 2), t1 = map.offset.y();
+  const float m20 = m(2, 0), m21 = m(2, 1), m22 = m(2, 2), t2 = map.offset.z();
+  float* __restrict const x = out.x;
+  float* __restrict const y = out.y;
+  float* __restrict const z_out = out.z;
+  for (int u = 0; u < count; ++u) {
+    const float depth = z[u] * (m20 * column[u] + m21 * row[u] + m22) + t2;
+    const float inverse = 1.0f / depth;
+    x[u] = (z[u] * (m00 * column[u] + m01 * row[u] + m02) + t0) * inverse;
+    y[u] = (z[u] * (m10 * column[u] + m11 * row[u] + m12) + t1) * inverse;
+    z_out[u] = depth;
+  }
+}
+
 }  // namespace
 
 ViewSynthesizer::ViewSynthesizer(SynthesisOptions options)
@@ -75,50 +90,111 @@ ViewSynthesizer::ViewSynthesizer(SynthesisOptions options)
 }
 
 void ViewSynthesizer::synthesize(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                                 const Camera& b_camera, const Pose& m_ab, PredictedView& view) {
+                                 const Camera& b_camera, const Pose& m_ab, PredictedView& view,
+                                 const BaseImage* base) {
   prepare(b_camera, view);
   const cv::Size a_size(a_camera.width, a_camera.height);
   if (a.counts.size() != a_size || a_bgr.size() != a_size || a_bgr.type() != CV_8UC3 ||
-      !a_bgr.isContinuous()) {
+      !a_bgr.isContinuous() || !a.counts.isContinuous()) {
     view.metres.setTo(0);
     view.provenance.setTo(kNothing);
     return;
   }
-  warp_depth(a, a_camera, b_camera, m_ab, warped_);
+  const bool backward = options_.mode == Synthesis::kBackward;
+  warp_depth(a, a_camera, b_camera, m_ab, warped_,
+             backward ? Footprint::kSurface : Footprint::kNearest);
   crack_filter_.mend(warped_.metres, view.provenance);
   cv::swap(warped_.metres, view.metres);
 
   const PixelMap to_a(b_camera, a_camera, m_ab.inverse(), 1.0);
+  shifts_.release();
+  if (backward && options_.align && base != nullptr && base->reduction <= kAlignment) {
+    align(a_bgr, to_a, *base, view.metres);
+  }
   const Fetcher fetcher(a, a_bgr, options_.surface_tolerance);
-  const auto* const a_pixels = a_bgr.ptr<std::uint8_t>();
-  for (int v = 0; v < b_camera.height; ++v) {
-    const Eigen::Vector3f row_start = to_a.row(v);
-    auto* const depth = view.metres.ptr<float>(v);
-    auto* const provenance = view.provenance.ptr<std::uint8_t>(v);
-    auto* const colours = view.bgr.ptr<std::uint8_t>(v);
-    const auto* const source = warped_.source.ptr<int>(v);
-    for (int u = 0; u < b_camera.width; ++u) {
-      if (!(depth[u] > 0.0f)) {
-        provenance[u] = kNothing;
+  rows_.create(6, b_camera.width, CV_32FC1);
+  for (int v = 0; v < b_camera.height; ++v) fetch_row(fetcher, to_a, v, view);
+}
+
+// Shifts between the prediction, at a quarter of its size, and the base.
+void ViewSynthesizer::align(const cv::Mat& a_bgr, const PixelMap& to_a, const BaseImage& base,
+                            const cv::Mat& metres) {
+  reduce_brightness(a_bgr, kAlignment, a_brightness_);
+  reduce_brightness(base.bgr, kAlignment / base.reduction, wanted_);
+  brightness_.create(wanted_.size(), CV_32FC1);
+  valid_.create(wanted_.size(), CV_8UC1);
+  constexpr float kCentre = 0.5f * (kAlignment - 1);
+  for (int v = 0; v < wanted_.rows; ++v) {
+    const int row = std::min(kAlignment * v + kAlignment / 2, metres.rows - 1);
+    const Eigen::Vector3f row_start = to_a.row(row);
+    for (int u = 0; u < wanted_.cols; ++u) {
+      const int column = std::min(kAlignment * u + kAlignment / 2, metres.cols - 1);
+      const float z = metres.ptr<float>(row)[column];
+      const Eigen::Vector3f at =
+          z * (row_start + static_cast<float>(column) * to_a.step) + to_a.offset;
+      const bool known = z > 0.0f && at.z() >= kNearestDepth;
+      valid_.ptr<std::uint8_t>(v)[u] = known ? 1 : 0;
+      // From the pixel looked at to its cell's centre is the same way in both images, nearly.
+      const float off = kCentre - kAlignment / 2;
+      brightness_.ptr<float>(v)[u] =
+          known ? sample(a_brightness_, (at.x() / at.z() + off - kCentre) / kAlignment,
+                         (at.y() / at.z() + off - kCentre) / kAlignment)
+                : 0.0f;
+    }
+  }
+  shifts_ = alignment_.align(brightness_, valid_, wanted_);
+}
+
+void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int v,
+                                PredictedView& view) {
+  const int width = view.metres.cols;
+  float* const depth = view.metres.ptr<float>(v);
+  const float* z = depth;
+  float* const column = rows_.ptr<float>(0);
+  float* const row = rows_.ptr<float>(1);
+  if (!shifts_.empty()) {
+    shifts_of_row(shifts_, kAlignment, v, width, column, row);
+    float* const shifted_z = rows_.ptr<float>(5);
+    for (int u = 0; u < width; ++u) {
+      column[u] += static_cast<float>(u);
+      row[u] += static_cast<float>(v);
+      const int x = std::clamp(static_cast<int>(column[u] + 0.5f), 0, width - 1);
+      const int y = std::clamp(static_cast<int>(row[u] + 0.5f), 0, view.metres.rows - 1);
+      const float there = view.metres.ptr<float>(y)[x];
+      shifted_z[u] = there > 0.0f ? there : depth[u];
+    }
+    z = shifted_z;
+  } else {
+    for (int u = 0; u < width; ++u) column[u] = static_cast<float>(u);
+    std::fill(row, row + width, static_cast<float>(v));
+  }
+  const Projected at{rows_.ptr<float>(2), rows_.ptr<float>(3), rows_.ptr<float>(4)};
+  project(to_a, z, column, row, width, at);
+
+  auto* const provenance = view.provenance.ptr<std::uint8_t>(v);
+  auto* const colours = view.bgr.ptr<std::uint8_t>(v);
+  const auto* const source = warped_.source.ptr<int>(v);
+  const bool backward = options_.mode == Synthesis::kBackward;
+  const Fetcher fetcher = shared;  // its own, so that compilers see that colours do not alias it
+  for (int u = 0; u < width; ++u) {
+    if (!(depth[u] > 0.0f)) {
+      provenance[u] = kNothing;
+      continue;
+    }
+    const bool mended = provenance[u] != 0;
+    provenance[u] = mended ? kMended : kPredicted;
+    if (mended || backward) {
+      if (at.z[u] >= kNearestDepth && fetcher.fetch(at.x[u], at.y[u], at.z[u], colours + 3 * u)) {
         continue;
       }
-      const bool mended = provenance[u] != 0;
-      provenance[u] = mended ? kMended : kPredicted;
-      if (mended || options_.mode == Synthesis::kBackward) {
-        const Eigen::Vector3f at =
-            depth[u] * (row_start + static_cast<float>(u) * to_a.step) + to_a.offset;
-        const float inverse = 1.0f / at.z();
-        if (at.z() >= kNearestDepth &&
-            fetcher.fetch(at.x() * inverse, at.y() * inverse, at.z(), colours + 3 * u)) {
-          continue;
-        }
-      }
-      if (!mended) {
-        std::memcpy(colours + 3 * u, a_pixels + 3 * source[u], 3);
-      } else {
-        depth[u] = 0.0f;  // the reference shows another surface there: nothing known
-        provenance[u] = kNothing;
-      }
+    }
+    if (!mended) {
+      std::memcpy(colours + 3 * u, fetcher.pixel(source[u]), 3);
+    } else {
+      // The reference shows another surface there: nothing known. Rows to come may be shifted to
+      // here, and take their own depth then.
+      depth[u] = 0.0f;
+      provenance[u] = kNothing;
     }
   }
 }

@@ -61,7 +61,7 @@ Result<StationParameters> read_station_parameters(const ros::NodeHandle& nh) {
                         "backward", station.synthesis.mode, problem) &&
       choose<UnknownFill>(nh, "unknown_fill",
                           {{"black", UnknownFill::kBlack}, {"smooth", UnknownFill::kSmooth}},
-                          "smooth", station.unknown_fill, problem) &&
+                          "smooth", station.stitch.fill, problem) &&
       choose<DepthEncoding>(nh, "depth_encoding",
                             {{"auto", DepthEncoding::kAuto},
                              {"16UC1", DepthEncoding::kMillimetres},
@@ -75,6 +75,9 @@ Result<StationParameters> read_station_parameters(const ros::NodeHandle& nh) {
   filter.range = static_cast<float>(nh.param("mend_range", 0.05));
   filter.largest_window = nh.param("mend_largest_window", 7);
   station.synthesis.surface_tolerance = static_cast<float>(nh.param("surface_tolerance", 0.05));
+
+  station.synthesis.align = nh.param("align", true);
+  station.stitch.edge_margin = at_least(nh, "edge_margin", 2, 0);
 
   station.references_held = at_least(nh, "references_held", 4, 1);
   station.waiting = at_least(nh, "waiting", 4, 0);

@@ -74,10 +74,12 @@ TEST_F(StitchTest, BlocksOfColourOnlyKeepThePredictedDepth) {
 }
 
 TEST_F(StitchTest, UnknownPixelsAreFilledOrBlack) {
-  const auto smooth = Stitcher(UnknownFill::kSmooth).stitch(prediction(), bgr, depth, mask, mask);
+  const auto smooth =
+      Stitcher({UnknownFill::kSmooth, 0}).stitch(prediction(), bgr, depth, mask, mask);
   EXPECT_EQ(smooth->bgr.at<cv::Vec3b>(25, 25), cv::Vec3b(10, 20, 30));
   EXPECT_EQ(smooth->provenance.at<std::uint8_t>(25, 25), kFilled);
-  const auto black = Stitcher(UnknownFill::kBlack).stitch(prediction(), bgr, depth, mask, mask);
+  const auto black =
+      Stitcher({UnknownFill::kBlack, 0}).stitch(prediction(), bgr, depth, mask, mask);
   EXPECT_EQ(black->bgr.at<cv::Vec3b>(25, 25), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(black->provenance.at<std::uint8_t>(25, 25), kNothing);
 }

@@ -15,11 +15,18 @@ struct WarpedDepth {
   cv::Mat source;  // CV_32SC1, v * width + u of the pixel in the source image; -1 where none
 };
 
-/// Paper eq. 1 for every valid pixel, nearest target pixel, the closest to the camera wins. Both
+/// Which pixels of the target a pixel of the source covers.
+enum class Footprint {
+  kNearest,  // one: the paper's
+  kSurface,  // those within half a pixel of the source, as large as it appears in the target:
+             // leaves few cracks where the target is nearer to the surface
+};
+
+/// Paper eq. 1 for every valid pixel; of those that cover a target pixel the closest wins. Both
 /// cameras' intrinsics are used. motion maps points of the source's optical frame into the
 /// target's. `out` is reused between calls: no allocation while sizes stay the same. The frame must
 /// have the source camera's size.
 void warp_depth(const DepthFrame& source, const Camera& source_camera, const Camera& target_camera,
-                const Pose& motion, WarpedDepth& out);
+                const Pose& motion, WarpedDepth& out, Footprint footprint = Footprint::kNearest);
 
 }  // namespace rprr

@@ -26,7 +26,7 @@ namespace rprr {
 struct StationOptions {
   std::vector<std::string> robots;  // whom the station listens to; what others send is refused
   SynthesisOptions synthesis;
-  UnknownFill unknown_fill = UnknownFill::kSmooth;
+  StitchOptions stitch;
   EnergyModel energy;
   std::size_t references_held = 4;  // whole frames kept per robot
   std::size_t waiting = 4;          // sparse frames per robot that may wait for their reference

@@ -6,6 +6,7 @@
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
+#include "rprr_station/depth_edges.hpp"
 #include "rprr_station/smooth_fill.hpp"
 #include "rprr_station/view_synthesis.hpp"
 
@@ -21,25 +22,36 @@ struct StitchedView {
   cv::Mat provenance;            // CV_8UC1, see Provenance
   double share_received = 0.0;   // of all pixels
   double share_predicted = 0.0;  // of all pixels, mended ones included
+  double share_base = 0.0;       // of all pixels: those that only the base knows
+};
+
+struct StitchOptions {
+  UnknownFill fill = UnknownFill::kSmooth;
+  /// Predicted depth is dropped within so many pixels of a depth edge; 0: never, as in the paper.
+  int edge_margin = 2;
 };
 
 /// Lays received blocks over a prediction. Keeps its buffers between frames; one object serves one
 /// thread.
 class Stitcher {
  public:
-  explicit Stitcher(UnknownFill fill = UnknownFill::kSmooth) : fill_(fill) {}
+  explicit Stitcher(StitchOptions options = {})
+      : options_(options), depth_edges_(options.edge_margin) {}
 
-  /// Colours of the mask's blocks and depths of depth_mask's blocks come from the received images
-  /// exactly as they are; the others from the prediction, depth rounded to the received depth's
-  /// unit. Provenance is that of the colours. The images in the result are new memory. Errors:
+  /// received_bgr may be empty: then only depth was received. Colours of the mask's blocks and
+  /// depths of depth_mask's blocks come from the received images exactly as they are; the others
+  /// from the prediction, depth rounded to the received depth's unit and only where no depth edge
+  /// is near. Provenance is that of the colours. The images in the result are new memory. Errors:
   /// sizes or types that differ.
   Result<StitchedView> stitch(const PredictedView& predicted, const cv::Mat& received_bgr,
                               const DepthFrame& received_depth, const BlockMask& mask,
                               const BlockMask& depth_mask);
 
  private:
-  UnknownFill fill_;
+  StitchOptions options_;
+  DepthEdges depth_edges_;
   SmoothFiller filler_;
+  cv::Mat predicted_depth_;  // CV_8UC1, 1 where depth is predicted
 };
 
 }  // namespace rprr

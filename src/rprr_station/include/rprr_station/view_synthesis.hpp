@@ -5,9 +5,12 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/pixel_map.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/warp.hpp"
+#include "rprr_station/base_image.hpp"
 #include "rprr_station/crack_filter.hpp"
+#include "rprr_station/image_alignment.hpp"
 #include "rprr_station/provenance.hpp"
 
 namespace rprr {
@@ -22,6 +25,8 @@ struct SynthesisOptions {
   /// Fetched backwards, a pixel of the reference shows the same surface if its depth differs by
   /// less than this share.
   float surface_tolerance = 0.05f;
+  /// Fetched backwards and with a base: fetch from where the reference looks like the base.
+  bool align = true;
   CrackFilterOptions crack_filter;
 };
 
@@ -39,15 +44,24 @@ class ViewSynthesizer {
   explicit ViewSynthesizer(SynthesisOptions options = {});
 
   /// a, a_bgr (CV_8UC3, continuous): the reference frame as decoded, both of a_camera's size. m_ab
-  /// maps points of a's optical frame into b's. view is reused between calls. A frame that has not
-  /// its camera's size predicts nothing.
+  /// maps points of a's optical frame into b's. base: b's, which must fit b_camera, or null. view
+  /// is reused between calls. A frame that has not its camera's size predicts nothing.
   void synthesize(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                  const Camera& b_camera, const Pose& m_ab, PredictedView& view);
+                  const Camera& b_camera, const Pose& m_ab, PredictedView& view,
+                  const BaseImage* base = nullptr);
 
  private:
+  void align(const cv::Mat& a_bgr, const PixelMap& to_a, const BaseImage& base,
+             const cv::Mat& metres);
+  void fetch_row(const class Fetcher& fetcher, const PixelMap& to_a, int v, PredictedView& view);
+
   SynthesisOptions options_;
   CrackFilter crack_filter_;
+  ImageAlignment alignment_;
   WarpedDepth warped_;
+  cv::Mat shifts_;                                      // empty: none
+  cv::Mat a_brightness_, brightness_, valid_, wanted_;  // of a quarter of the size
+  cv::Mat rows_;                                        // CV_32FC1, a few rows of numbers
 };
 
 }  // namespace rprr

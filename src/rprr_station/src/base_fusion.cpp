@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_station/base_fusion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "float4.hpp"
+
+namespace rprr {
+namespace {
+
+constexpr std::size_t kOctaves = 5;  // of the base that are weighed; what is coarser counts fully
+constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or the next below
+
+// How the power of a base's coding noise spreads over octaves, the finest first: shares of the mean
+// square that 2x2 cells hold. WebP and JPEG at several qualities, on rendered rooms; the codecs and
+// scenes differ less than a factor of 1.5.
+constexpr std::array<float, kOctaves> kNoiseReduced{0.50f, 0.28f, 0.13f, 0.06f, 0.02f};
+constexpr std::array<float, kOctaves> kNoiseFull{0.24f, 0.29f, 0.25f, 0.12f, 0.06f};
+
+// The estimate errs on the side of the prediction where that is mostly good, of the base where not.
+constexpr float kTrust = 1.5f;
+constexpr float kLeastTrust = 0.75f;
+constexpr float kMostTrust = 2.0f;
+
+cv::Size half(cv::Size size) {
+  return {(size.width + 1) / 2, (size.height + 1) / 2};
+}
+
+std::size_t level_of(int reduction) {
+  std::size_t level = 0;
+  while ((1 << level) < reduction) ++level;
+  return level;
+}
+
+std::size_t coarsest_level(cv::Size size, std::size_t base_level) {
+  std::size_t level = 0;
+  for (; level < base_level + kOctaves; ++level) {
+    if (level > base_level && std::min(size.width, size.height) <= kSmallest) break;
+    size = half(size);
+  }
+  return level;
+}
+
+// Calls visit(u, v, four pixels' values) for the 2x2 cells of an image; at(u, v) gives a pixel.
+template <typename At, typename Visit>
+void for_cells(cv::Size fine, const At& at, const Visit& visit) {
+  const cv::Size coarse = half(fine);
+  for (int v = 0; v < coarse.height; ++v) {
+    const int upper = 2 * v;
+    const int lower = std::min(2 * v + 1, fine.height - 1);
+    for (int u = 0; u < coarse.width; ++u) {
+      const int left = 2 * u;
+      const int right = std::min(2 * u + 1, fine.width - 1);
+      visit(u, v, at(left, upper), at(right, upper), at(left, lower), at(right, lower));
+    }
+  }
+}
+
+void reduce(const cv::Mat& fine, cv::Mat& coarse) {
+  coarse.create(half(fine.size()), CV_32FC4);
+  for_cells(
+      fine.size(), [&](int u, int v) { return row4(fine, v)[u]; },
+      [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
+        row4(coarse, v)[u] = all4(0.25f) * ((a + b) + (c + d));
+      });
+}
+
+void reduce_bgr(const cv::Mat& bgr, cv::Mat& coarse) {
+  coarse.create(half(bgr.size()), CV_32FC4);
+  for_cells(
+      bgr.size(), [&](int u, int v) { return bgr.ptr<std::uint8_t>(v) + 3 * u; },
+      [&](int u, int v, const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c,
+          const std::uint8_t* d) {
+        const auto mean = [&](int i) {
+          return 0.25f * static_cast<float>(a[i] + b[i] + c[i] + d[i]);
+        };
+        row4(coarse, v)[u] = Float4{mean(0), mean(1), mean(2), 0.0f};
+      });
+}
+
+// Means over 3x3 values, as far as the image goes.
+void smooth(const cv::Mat& in, cv::Mat& out) {
+  out.create(in.size(), CV_32FC1);
+  for (int v = 0; v < in.rows; ++v) {
+    const float* rows[3] = {in.ptr<float>(std::max(v - 1, 0)), in.ptr<float>(v),
+                            in.ptr<float>(std::min(v + 1, in.rows - 1))};
+    auto* to = out.ptr<float>(v);
+    float before = rows[0][0] + rows[1][0] + rows[2][0];
+    float here = before;
+    for (int u = 0; u < in.cols; ++u) {
+      const int next = std::min(u + 1, in.cols - 1);
+      const float after = rows[0][next] + rows[1][next] + rows[2][next];
+      to[u] = (before + here + after) * (1.0f / 9.0f);
+      before = here;
+      here = after;
+    }
+  }
+}
+
+float sum_of(Float4 x) {
+  return x[0] + x[1] + x[2];
+}
+
+// Mean square, of the three colours, of what four pixels hold beyond their mean.
+float octave_energy(Float4 a, Float4 b, Float4 c, Float4 d, Float4 mean) {
+  const Float4 all = (a * a + b * b) + (c * c + d * d);
+  return (1.0f / 3.0f) * sum_of(all4(0.25f) * all - mean * mean);
+}
+
+// out = E(q) + E(q's weight) x, E enlarging to x's size.
+void expand(const cv::Mat& q, const cv::Mat& x, cv::Mat& out, Float4* mixed) {
+  out.create(x.size(), CV_32FC4);
+  for (int v = 0; v < x.rows; ++v) {
+    const Float4* from = row4(x, v);
+    Float4* to = row4(out, v);
+    for_enlarged_row(q, v, x.cols, mixed,
+                     [&](int u, Float4 value) { to[u] = value + all4(value[3]) * from[u]; });
+  }
+}
+
+// q's colours are `whole` minus weight times `part`, its fourth number the weight.
+void weighted_rest(const cv::Mat& whole, const cv::Mat& part, const cv::Mat& weight, cv::Mat& q) {
+  q.create(whole.size(), CV_32FC4);
+  for (int v = 0; v < q.rows; ++v) {
+    const Float4* w = row4(whole, v);
+    const Float4* p = row4(part, v);
+    const auto* share = weight.ptr<float>(v);
+    Float4* to = row4(q, v);
+    for (int u = 0; u < q.cols; ++u) {
+      to[u] = w[u] - all4(share[u]) * p[u];
+      to[u][3] = share[u];
+    }
+  }
+}
+
+// The pixel of the base that shows a place of the frame, between its pixels.
+Float4 sample(const BaseImage& base, int u, int v) {
+  const auto r = static_cast<float>(base.reduction);
+  const float x = std::clamp((static_cast<float>(u) + 0.5f) / r - 0.5f, 0.0f,
+                             static_cast<float>(base.bgr.cols - 1));
+  const float y = std::clamp((static_cast<float>(v) + 0.5f) / r - 0.5f, 0.0f,
+                             static_cast<float>(base.bgr.rows - 1));
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const int right = std::min(left + 1, base.bgr.cols - 1);
+  const auto* upper = base.bgr.ptr<std::uint8_t>(top);
+  const auto* lower = base.bgr.ptr<std::uint8_t>(std::min(top + 1, base.bgr.rows - 1));
+  const Float4 across = all4(x - static_cast<float>(left));
+  const Float4 above = load_bgr(upper + 3 * left) +
+                       across * (load_bgr(upper + 3 * right) - load_bgr(upper + 3 * left));
+  const Float4 below = load_bgr(lower + 3 * left) +
+                       across * (load_bgr(lower + 3 * right) - load_bgr(lower + 3 * left));
+  return above + all4(y - static_cast<float>(top)) * (below - above);
+}
+
+}  // namespace
+
+void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
+  const std::size_t base_level = level_of(base.reduction);
+  const std::size_t coarsest = coarsest_level(view.bgr.size(), base_level);
+  if (levels_.size() < coarsest + 1) levels_.resize(coarsest + 1);
+  mixed_.create(1, view.bgr.cols / 2 + 4, CV_32FC4);
+
+  take_base_where_unknown(base, view);
+  reduce_bgr(view.bgr, levels_[1].prediction);
+  for (std::size_t level = 1; level < coarsest; ++level) {
+    reduce(levels_[level].prediction, levels_[level + 1].prediction);
+  }
+  compare(base, base_level, coarsest, view.bgr);
+  join(base_level, coarsest, base);
+  if (base_level == 0) {
+    weighted_rest(levels_[1].joint, levels_[1].difference, levels_[0].share, rest_);
+    finish_at_base(base, view);
+    return;
+  }
+  weigh_finer_detail(base_level);
+  for (std::size_t level = base_level; level-- > 1;) {
+    rest_beyond_base(level + 1);
+    expand(rest_, levels_[level].prediction, levels_[level].joint, row4(mixed_, 0));
+  }
+  rest_beyond_base(1);
+  finish_beyond_base(view.bgr);
+}
+
+void BaseFusion::take_base_where_unknown(const BaseImage& base, PredictedView& view) {
+  for (int v = 0; v < view.bgr.rows; ++v) {
+    auto* provenance = view.provenance.ptr<std::uint8_t>(v);
+    auto* colours = view.bgr.ptr<std::uint8_t>(v);
+    for (int u = 0; u < view.bgr.cols; ++u) {
+      if (provenance[u] != kNothing) continue;
+      provenance[u] = kBase;
+      store_bgr(sample(base, u, v), colours + 3 * u);
+    }
+  }
+}
+
+// Differences at the base's level and coarser ones, and how much each octave of them holds.
+void BaseFusion::compare(const BaseImage& base, std::size_t base_level, std::size_t coarsest,
+                         const cv::Mat& bgr) {
+  if (base_level == 0) {
+    Level& next = levels_[1];
+    next.difference.create(half(bgr.size()), CV_32FC4);
+    cv::Mat& energy = levels_[0].energy;
+    energy.create(next.difference.size(), CV_32FC1);
+    const auto difference = [&](int u, int v) {
+      return load_bgr(base.bgr.ptr<std::uint8_t>(v) + 3 * u) -
+             load_bgr(bgr.ptr<std::uint8_t>(v) + 3 * u);
+    };
+    for_cells(bgr.size(), difference, [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
+      const Float4 mean = all4(0.25f) * ((a + b) + (c + d));
+      row4(next.difference, v)[u] = mean;
+      energy.ptr<float>(v)[u] = octave_energy(a, b, c, d, mean);
+    });
+  } else {
+    Level& own = levels_[base_level];
+    own.difference.create(base.bgr.size(), CV_32FC4);
+    for (int v = 0; v < base.bgr.rows; ++v) {
+      const auto* from = base.bgr.ptr<std::uint8_t>(v);
+      const Float4* prediction = row4(own.prediction, v);
+      Float4* to = row4(own.difference, v);
+      for (int u = 0; u < base.bgr.cols; ++u) to[u] = load_bgr(from + 3 * u) - prediction[u];
+    }
+  }
+  for (std::size_t i = std::max<std::size_t>(base_level, 1); i < coarsest; ++i) {
+    Level& fine = levels_[i];
+    Level& next = levels_[i + 1];
+    next.difference.create(half(fine.difference.size()), CV_32FC4);
+    fine.energy.create(next.difference.size(), CV_32FC1);
+    for_cells(
+        fine.difference.size(), [&](int u, int v) { return row4(fine.difference, v)[u]; },
+        [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
+          const Float4 mean = all4(0.25f) * ((a + b) + (c + d));
+          row4(next.difference, v)[u] = mean;
+          fine.energy.ptr<float>(v)[u] = octave_energy(a, b, c, d, mean);
+        });
+  }
+}
+
+// From the coarsest level down to the base's: what to add to the prediction.
+void BaseFusion::join(std::size_t base_level, std::size_t coarsest, const BaseImage& base) {
+  const auto& noise = base_level == 0 ? kNoiseFull : kNoiseReduced;
+  levels_[coarsest].difference.copyTo(levels_[coarsest].joint);
+  for (std::size_t level = coarsest; level-- > base_level;) {
+    weigh(level, base.noise * base.noise * noise[std::min(level - base_level, kOctaves - 1)]);
+    if (level == 0) break;
+    const Level& coarse = levels_[level + 1];
+    weighted_rest(coarse.joint, coarse.difference, levels_[level].share, rest_);
+    expand(rest_, levels_[level].difference, levels_[level].joint, row4(mixed_, 0));
+  }
+  if (base_level == 0) return;
+  Level& own = levels_[base_level];
+  for (int v = 0; v < own.joint.rows; ++v) {
+    Float4* joint = row4(own.joint, v);
+    const Float4* prediction = row4(own.prediction, v);
+    for (int u = 0; u < own.joint.cols; ++u) joint[u] += prediction[u];
+  }
+}
+
+// Wiener's share of the difference in an octave; variance is that of the base's noise there.
+void BaseFusion::weigh(std::size_t level, float variance) {
+  Level& own = levels_[level];
+  smooth(own.energy, own.share);
+  const float middle = median_of_some(own.share);
+  const float trust =
+      std::clamp(kTrust * variance / std::max(middle, 1e-6f), kLeastTrust, kMostTrust);
+  for (int v = 0; v < own.share.rows; ++v) {
+    auto* share = own.share.ptr<float>(v);
+    for (int u = 0; u < own.share.cols; ++u) {
+      share[u] = std::max(0.0f, 1.0f - trust * variance / std::max(share[u], 1e-3f));
+    }
+  }
+}
+
+float BaseFusion::median_of_some(const cv::Mat& values) {
+  constexpr int kEvery = 3;
+  sample_.clear();
+  for (int v = 0; v < values.rows; v += kEvery) {
+    for (int u = 0; u < values.cols; u += kEvery) sample_.push_back(values.at<float>(v, u));
+  }
+  const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
+  std::nth_element(sample_.begin(), middle, sample_.end());
+  return *middle;
+}
+
+// How much of the prediction's detail beyond the base to keep: like the finest octave in common,
+// the covariance of prediction and joint estimate over the larger of their variances.
+void BaseFusion::weigh_finer_detail(std::size_t base_level) {
+  const Level& own = levels_[base_level];
+  const cv::Size cells = half(own.joint.size());
+  for (cv::Mat& sums : agreement_) sums.create(cells, CV_32FC1);
+  for (int v = 0; v < cells.height; ++v) {
+    const int rows[2] = {2 * v, std::min(2 * v + 1, own.joint.rows - 1)};
+    for (int u = 0; u < cells.width; ++u) {
+      const int columns[2] = {2 * u, std::min(2 * u + 1, own.joint.cols - 1)};
+      Float4 p = all4(0), j = all4(0), pp = all4(0), jj = all4(0), pj = all4(0);
+      for (const int row : rows) {
+        for (const int column : columns) {
+          const Float4 prediction = row4(own.prediction, row)[column];
+          const Float4 joint = row4(own.joint, row)[column];
+          p += prediction;
+          j += joint;
+          pp += prediction * prediction;
+          jj += joint * joint;
+          pj += prediction * joint;
+        }
+      }
+      const Float4 quarter = all4(0.25f);
+      agreement_[0].ptr<float>(v)[u] = sum_of(pp - quarter * p * p);
+      agreement_[1].ptr<float>(v)[u] = sum_of(jj - quarter * j * j);
+      agreement_[2].ptr<float>(v)[u] = sum_of(pj - quarter * p * j);
+    }
+  }
+  for (cv::Mat& sums : agreement_) {
+    smooth(sums, smoothed_);
+    cv::swap(sums, smoothed_);
+  }
+  // Of four pixels and three colours, so that flat places count as agreeing.
+  constexpr float kFlat = 12.0f;
+  Level& weights = levels_[base_level + 1];
+  weights.joint.create(cells, CV_32FC4);
+  for (int v = 0; v < cells.height; ++v) {
+    for (int u = 0; u < cells.width; ++u) {
+      const float largest =
+          std::max(agreement_[0].ptr<float>(v)[u], agreement_[1].ptr<float>(v)[u]);
+      row4(weights.joint, v)[u] = all4(
+          std::clamp((agreement_[2].ptr<float>(v)[u] + kFlat) / (largest + kFlat), 0.0f, 1.0f));
+    }
+  }
+  Level& base = levels_[base_level];
+  for (int v = 0; v < base.joint.rows; ++v) {
+    Float4* joint = row4(base.joint, v);
+    for_enlarged_row(weights.joint, v, base.joint.cols, row4(mixed_, 0),
+                     [&](int u, Float4 weight) { joint[u][3] = weight[3]; });
+  }
+}
+
+// What the joint estimate of a level holds beyond its share of the prediction; the weight goes with
+// it as the fourth number.
+void BaseFusion::rest_beyond_base(std::size_t level) {
+  const Level& own = levels_[level];
+  rest_.create(own.joint.size(), CV_32FC4);
+  for (int v = 0; v < rest_.rows; ++v) {
+    const Float4* joint = row4(own.joint, v);
+    const Float4* prediction = row4(own.prediction, v);
+    Float4* to = row4(rest_, v);
+    for (int u = 0; u < rest_.cols; ++u) {
+      const float weight = joint[u][3];
+      to[u] = joint[u] - all4(weight) * prediction[u];
+      to[u][3] = weight;
+    }
+  }
+}
+
+void BaseFusion::finish_beyond_base(cv::Mat& bgr) {
+  for (int v = 0; v < bgr.rows; ++v) {
+    auto* colours = bgr.ptr<std::uint8_t>(v);
+    for_enlarged_row(rest_, v, bgr.cols, row4(mixed_, 0), [&](int u, Float4 rest) {
+      std::uint8_t* colour = colours + 3 * u;
+      store_bgr(rest + all4(rest[3]) * load_bgr(colour), colour);
+    });
+  }
+}
+
+void BaseFusion::finish_at_base(const BaseImage& base, PredictedView& view) {
+  for (int v = 0; v < view.bgr.rows; ++v) {
+    auto* colours = view.bgr.ptr<std::uint8_t>(v);
+    const auto* from = base.bgr.ptr<std::uint8_t>(v);
+    for_enlarged_row(rest_, v, view.bgr.cols, row4(mixed_, 0), [&](int u, Float4 rest) {
+      std::uint8_t* colour = colours + 3 * u;
+      const Float4 prediction = load_bgr(colour);
+      const Float4 difference = load_bgr(from + 3 * u) - prediction;
+      store_bgr(prediction + rest + all4(rest[3]) * difference, colour);
+    });
+  }
+}
+
+}  // namespace rprr
