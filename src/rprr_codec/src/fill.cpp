@@ -188,31 +188,43 @@ void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
 
 }  // namespace
 
-cv::Mat SmoothFill::fill(const cv::Mat& bgr, const BlockMask& sent) {
-  const int count = sent.count();
-  if (count == 0) return cv::Mat(bgr.size(), CV_8UC3, cv::Scalar::all(0));
-  cv::Mat filled = bgr.clone();
-  if (count == sent.grid().count()) return filled;
-  levels_[0] = filled;
-  for (std::size_t k = 0; k < kBlockLevel; ++k) reduce(levels_[k], levels_[k + 1]);
-  fill_blocks(levels_[kBlockLevel], sent);
-  for (int k = kBlockLevel - 1; k >= 0; --k) {
-    cv::Mat& level = levels_[static_cast<std::size_t>(k)];
-    enlarge(levels_[static_cast<std::size_t>(k) + 1], level, k, sent);
-    for (int sweep = 0; sweep < kPixelSweeps; ++sweep) relax(level, k, sent, scratch_);
+void SmoothFill::fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction) {
+  const int count = known.count();
+  if (count == 0) bgr.setTo(cv::Scalar::all(0));
+  if (count == 0 || count == known.grid().count()) return;
+  int finest = 0;
+  while (1 << finest < reduction) ++finest;
+  levels_[static_cast<std::size_t>(finest)] = bgr;
+  for (auto k = static_cast<std::size_t>(finest); k < kBlockLevel; ++k) {
+    reduce(levels_[k], levels_[k + 1]);
   }
-  levels_[0].release();
+  fill_blocks(levels_[kBlockLevel], known);
+  for (int k = kBlockLevel - 1; k >= finest; --k) {
+    cv::Mat& level = levels_[static_cast<std::size_t>(k)];
+    enlarge(levels_[static_cast<std::size_t>(k) + 1], level, k, known);
+    for (int sweep = 0; sweep < kPixelSweeps; ++sweep) relax(level, k, known, scratch_);
+  }
+  levels_[static_cast<std::size_t>(finest)].release();
+}
+
+cv::Mat SmoothFill::fill(const cv::Mat& bgr, const BlockMask& sent) {
+  cv::Mat filled = bgr.clone();
+  fill_in_place(filled, sent);
   return filled;
 }
 
+void black_out(cv::Mat& bgr, const BlockMask& known, int reduction) {
+  int shift = 0;
+  while (1 << shift < reduction) ++shift;
+  for_each_unsent(bgr, shift, known, [&](int v, int first, int end) {
+    auto* row = bgr.ptr<std::uint8_t>(v);
+    std::fill(row + kChannels * first, row + kChannels * end, std::uint8_t{0});
+  });
+}
+
 cv::Mat black_fill(const cv::Mat& bgr, const BlockMask& sent) {
-  cv::Mat filled(bgr.size(), CV_8UC3, cv::Scalar::all(0));
-  const BlockGrid& grid = sent.grid();
-  for (int block = 0; block < grid.count(); ++block) {
-    if (!sent[block]) continue;
-    const cv::Rect rect = grid.rect(block);
-    bgr(rect).copyTo(filled(rect));
-  }
+  cv::Mat filled = bgr.clone();
+  black_out(filled, sent);
   return filled;
 }
 
