@@ -75,10 +75,20 @@ void ColourLayers::prepare(const cv::Mat& bgr, const BlockMask* sent) {
   for (Prepared& base : bases_) base.ready = false;
   layout_ = ColourLayout::kInPlace;
   sent_.reset();
+  compact_.reset();
   if (sent == nullptr) return;
   sent_ = *sent;
+  choose_layout();
   unsent_ = BlockMask(sent->grid());
   for (int block = 0; block < sent->grid().count(); ++block) unsent_.set(block, !(*sent)[block]);
+}
+
+void ColourLayers::choose_layout() {
+  if (fill_ == UnsentFill::kBlack) return;
+  compact_.emplace(*sent_);
+  const int columns = compact_->used().grid().columns;
+  const int rows = compact_->used().grid().rows;
+  if (columns * rows < sent_->grid().count()) layout_ = ColourLayout::kCompact;
 }
 
 void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction) {
@@ -91,11 +101,15 @@ void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction) {
 
 const cv::Mat& ColourLayers::detail() {
   if (!sent_) return bgr_;
-  if (!detail_.ready) {
+  if (detail_.ready) return detail_.image;
+  if (layout_ == ColourLayout::kCompact) {
+    compact_->gather(bgr_, detail_.image);
+    fill(detail_.image, compact_->used(), 1);
+  } else {
     bgr_.copyTo(detail_.image);
     fill(detail_.image, *sent_, 1);
-    detail_.ready = true;
   }
+  detail_.ready = true;
   return detail_.image;
 }
 
@@ -117,7 +131,6 @@ Result<Bytes> ColourLayers::encode_base(int reduction, int quality, bool with_de
   if (!is_base_reduction(reduction)) {
     return Error{"the base is reduced " + std::to_string(reduction) + " times, must be 1, 2, 4, 8"};
   }
-  if (bgr_.empty()) return Error{"there is no colour image"};
   return base_codec_->encode(base(reduction, with_detail), quality);
 }
 

@@ -4,37 +4,18 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "block_packing.hpp"
+
 namespace rprr {
-namespace {
-
-// Where each line of blocks goes, -1 where it is taken out; returns how many stay.
-int renumber(std::vector<int>& lines) {
-  int next = 0;
-  for (int& line : lines) line = line == 0 ? -1 : next++;
-  return next;
-}
-
-}  // namespace
 
 CompactLayout::CompactLayout(const BlockMask& mask) {
-  const BlockGrid& grid = mask.grid();
-  std::vector<int> columns(static_cast<std::size_t>(grid.columns), 0);
-  std::vector<int> rows(static_cast<std::size_t>(grid.rows), 0);
-  for (int block = 0; block < grid.count(); ++block) {
-    if (!mask[block]) continue;
-    columns[static_cast<std::size_t>(block % grid.columns)] = 1;
-    rows[static_cast<std::size_t>(block / grid.columns)] = 1;
-  }
-  const int width = renumber(columns);
-  const int height = renumber(rows);
-  used_ = BlockMask(BlockGrid(width * kBlockSide, height * kBlockSide));
-  for (int block = 0; block < grid.count(); ++block) {
-    if (!mask[block]) continue;
-    const int column = columns[static_cast<std::size_t>(block % grid.columns)];
-    const int row = rows[static_cast<std::size_t>(block / grid.columns)];
-    const int target = used_.grid().index(column, row);
+  const BlockPacking packing = packed(mask);
+  used_ = BlockMask(BlockGrid(packing.size.width * kBlockSide, packing.size.height * kBlockSide));
+  moves_.reserve(packing.blocks.size());
+  for (std::size_t i = 0; i < packing.blocks.size(); ++i) {
+    const int target = used_.grid().index(packing.to[i].x, packing.to[i].y);
     used_.set(target);
-    moves_.push_back({grid.rect(block), used_.grid().rect(target)});
+    moves_.push_back({mask.grid().rect(packing.blocks[i]), used_.grid().rect(target)});
   }
 }
 

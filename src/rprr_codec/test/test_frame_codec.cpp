@@ -232,7 +232,8 @@ TEST_F(FrameCodec, HostileBasesAndLayoutsAreErrors) {
   refused([](EncodedFrame& f) { f.base_codec = "jpeg"; }, "base of another codec");
   refused([](EncodedFrame& f) { f.colour.pop_back(); }, "damaged detail");
   refused([](EncodedFrame& f) { f.base_reduction = 0, f.colour.clear(); }, "no colour");
-  refused([](EncodedFrame& f) { f.colour_layout = ColourLayout::kCompact; }, "another layout");
+  EXPECT_EQ(good.colour_layout, ColourLayout::kCompact);
+  refused([](EncodedFrame& f) { f.colour_layout = ColourLayout::kInPlace; }, "another layout");
   EncodedFrame whole = frame_of(nullptr);
   ASSERT_TRUE(encoder->encode(depth_, bgr_, whole));
   whole.colour_layout = ColourLayout::kCompact;

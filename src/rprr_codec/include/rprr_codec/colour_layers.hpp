@@ -42,6 +42,8 @@ class ColourLayers {
   /// The whole image, whatever is sent of it.
   Result<Bytes> encode_whole(int quality);
 
+  /// Of the detail: compact where that makes the image smaller, never with black fill (the
+  /// paper's).
   ColourLayout layout() const { return layout_; }
   std::string codec() const { return detail_codec_->name(); }
   std::string base_codec() const { return base_codec_->name(); }
@@ -51,6 +53,7 @@ class ColourLayers {
  private:
   ColourLayers(std::unique_ptr<ColourEncoder> detail, std::unique_ptr<ColourEncoder> base,
                UnsentFill fill);
+  void choose_layout();
   void fill(cv::Mat& bgr, const BlockMask& known, int reduction);
   const cv::Mat& detail();
   const cv::Mat& base(int reduction, bool with_detail);
@@ -62,6 +65,7 @@ class ColourLayers {
 
   cv::Mat bgr_;
   std::optional<BlockMask> sent_;
+  std::optional<CompactLayout> compact_;
   BlockMask unsent_;
   ColourLayout layout_ = ColourLayout::kInPlace;
 

@@ -8,14 +8,15 @@
 
 namespace rprr {
 
-/// The blocks of a mask moved together into a smaller image: rows and columns of blocks that hold
-/// none of the mask are taken out, so neighbours stay neighbours. Both ends compute it from the
-/// mask. Blocks that the camera's image cuts at its rim are continued to 8x8 pixels.
+/// The blocks of a mask moved together into a smaller image, so that a codec spends nothing on the
+/// space between them. Both ends compute it from the mask alone; doc/encoded_frame.md has the rule.
+/// Blocks that the camera's image cuts at its rim are continued to 8x8 pixels.
 class CompactLayout {
  public:
   explicit CompactLayout(const BlockMask& mask);
 
-  /// Of the compact image, in pixels: multiples of 8; none if the mask has no block.
+  /// Of the compact image, in pixels: multiples of 8; none if the mask has no block. Its area is
+  /// never beyond that of the mask's grid.
   cv::Size size() const { return {used_.grid().width, used_.grid().height}; }
   /// Of the compact image's grid: the blocks that hold one of the mask.
   const BlockMask& used() const { return used_; }

@@ -26,6 +26,7 @@ class SmoothFill {
  private:
   std::array<cv::Mat, 4> levels_;  // CV_8UC3; level k has cells of 2^k pixels, 3 is a block
   std::vector<std::uint8_t> scratch_;
+  std::vector<std::uint16_t> blend_;
 };
 
 /// A copy with all pixels outside the mask's blocks black: the paper's.
