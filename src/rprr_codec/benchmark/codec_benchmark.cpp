@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Medians of processor time over the PNG images of folders in the layout of the TUM benchmark
 // (depth/, rgb/):
-//   rprr_codec_benchmark FOLDER...
-#include <time.h>
-
-#include <algorithm>
+//   rprr_codec_codec_benchmark FOLDER...
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <string>
 #include <vector>
 
+#include "measure.hpp"
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/fill.hpp"
@@ -21,55 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using rprr::BlockGrid;
 using rprr::BlockMask;
+using rprr::benchmark::Clock;
+using rprr::benchmark::images_in;
+using rprr::benchmark::Times;
 
 constexpr int kColourQuality = 6;
-
-std::vector<cv::Mat> images_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (fs::is_directory(folder)) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() == ".png" || entry.path().extension() == ".jpg") {
-        files.push_back(entry.path());
-      }
-    }
-  }
-  std::sort(files.begin(), files.end());
-  std::vector<cv::Mat> images;
-  for (const fs::path& file : files) {
-    images.push_back(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
-  }
-  return images;
-}
-
-// Processor time of this thread, so that a busy machine does not count, or time on the wall.
-enum class Clock : clockid_t { kThread = CLOCK_THREAD_CPUTIME_ID, kWall = CLOCK_MONOTONIC };
-
-class Times {
- public:
-  explicit Times(Clock clock = Clock::kThread) : clock_(clock) {}
-
-  template <typename Work>
-  auto measure(const Work& work) {
-    const double start = now();
-    auto result = work();
-    milliseconds_.push_back(now() - start);
-    return result;
-  }
-  double median() {
-    std::sort(milliseconds_.begin(), milliseconds_.end());
-    return milliseconds_.empty() ? 0.0 : milliseconds_[milliseconds_.size() / 2];
-  }
-
- private:
-  double now() const {
-    timespec time = {};
-    clock_gettime(static_cast<clockid_t>(clock_), &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  }
-
-  Clock clock_;
-  std::vector<double> milliseconds_;
-};
 
 // A compact quarter of the blocks.
 BlockMask quarter(const BlockGrid& grid) {
@@ -118,7 +70,7 @@ void benchmark_depth(const std::vector<cv::Mat>& images) {
 }
 
 void benchmark_colour(const std::vector<cv::Mat>& images) {
-  const auto encoder = rprr::make_colour_encoder("pgf", kColourQuality);
+  const auto encoder = rprr::make_colour_encoder("pgf");
   const auto local = rprr::make_local_colour_decoder();
   const auto isolated = rprr::make_isolated_colour_decoder();
   rprr::SmoothFill smooth;
@@ -128,7 +80,8 @@ void benchmark_colour(const std::vector<cv::Mat>& images) {
   Times filling;
   double bytes = 0.0;
   for (const cv::Mat& image : images) {
-    const rprr::Bytes payload = *encoding.measure([&] { return (*encoder)->encode(image); });
+    const rprr::Bytes payload =
+        *encoding.measure([&] { return (*encoder)->encode(image, kColourQuality); });
     here.measure([&] { return local->decode("pgf", payload, image.size()); });
     apart.measure([&] { return isolated->decode("pgf", payload, image.size()); });
     filling.measure(

@@ -16,6 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Result<EncodedFrame> frame = parse_encoded_frame(bytes);
     if (!frame) continue;
     fuzz::require(frame->camera.valid());
+    fuzz::require(frame->base_reduction == 0 ? frame->base.empty()
+                                             : frame->sparse && !frame->base.empty());
     if (frame->sparse) {
       decoder.decode(frame->depth, frame->depth_blocks());
     } else {

@@ -101,6 +101,11 @@ void containers(const fs::path& root) {
   frame.mask = synthetic::some_blocks(BlockGrid(64, 48), 0.5);
   frame.depth = DhcmEncoder(DhcmMode::kFast).encode(image, frame.mask);
   folder.add(without_seal(serialise(frame)));
+  frame.colour_layout = ColourLayout::kCompact;
+  frame.base_codec = "webp";
+  frame.base = {4, 5, 6};
+  frame.base_reduction = 4;
+  folder.add(without_seal(serialise(frame)));
 }
 
 }  // namespace

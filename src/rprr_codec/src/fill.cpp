@@ -2,6 +2,7 @@
 #include "rprr_codec/fill.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <opencv2/core.hpp>
 
 namespace rprr {
@@ -59,28 +60,44 @@ void for_each_unsent(const cv::Mat& level, int shift, const BlockMask& sent, con
   }
 }
 
-// Unsent cells start as bilinear samples of the level above.
-void enlarge(const cv::Mat& coarse, cv::Mat& fine, int shift, const BlockMask& sent) {
+// Unsent cells start as bilinear samples of the level above. Stretches begin at even cells.
+void enlarge(const cv::Mat& coarse, cv::Mat& fine, int shift, const BlockMask& sent,
+             std::vector<std::uint16_t>& blend) {
+  blend.resize(static_cast<std::size_t>(coarse.cols + 2) * kChannels);
+  std::uint16_t* const mixed = blend.data() + kChannels;  // a cell of margin on both sides
   for_each_unsent(fine, shift, sent, [&](int v, int first, int end) {
     const int near_v = v / 2;
     const int far_v = std::clamp(near_v + (v % 2 != 0 ? 1 : -1), 0, coarse.rows - 1);
     const auto* near_row = coarse.ptr<std::uint8_t>(near_v);
     const auto* far_row = coarse.ptr<std::uint8_t>(far_v);
-    auto* out = fine.ptr<std::uint8_t>(v);
-    for (int u = first; u < end; ++u) {
-      const int near_u = kChannels * (u / 2);
-      const int far_u = kChannels * std::clamp(u / 2 + (u % 2 != 0 ? 1 : -1), 0, coarse.cols - 1);
+    const int from = std::max(first / 2 - 1, 0) * kChannels;
+    const int to = std::min(end / 2 + 1, coarse.cols) * kChannels;
+    for (int i = from; i < to; ++i) {
+      mixed[i] = static_cast<std::uint16_t>(3 * near_row[i] + far_row[i]);
+    }
+    for (int c = 0; c < kChannels; ++c) {
+      mixed[c - kChannels] = mixed[c];
+      mixed[coarse.cols * kChannels + c] = mixed[(coarse.cols - 1) * kChannels + c];
+    }
+    auto* out = fine.ptr<std::uint8_t>(v) + kChannels * first;
+    for (int u = first; u + 1 < end; u += 2, out += 2 * kChannels) {
+      const std::uint16_t* at = mixed + kChannels * (u / 2);
       for (int c = 0; c < kChannels; ++c) {
-        out[kChannels * u + c] = static_cast<std::uint8_t>(
-            (9 * near_row[near_u + c] + 3 * (near_row[far_u + c] + far_row[near_u + c]) +
-             far_row[far_u + c] + 8) >>
-            4);
+        const int centre = 3 * at[c] + 8;
+        out[c] = static_cast<std::uint8_t>((centre + at[c - kChannels]) >> 4);
+        out[c + kChannels] = static_cast<std::uint8_t>((centre + at[c + kChannels]) >> 4);
       }
+    }
+    if ((end - first) % 2 == 0) return;
+    const std::uint16_t* at = mixed + kChannels * (end / 2);
+    for (int c = 0; c < kChannels; ++c) {
+      out[c] = static_cast<std::uint8_t>((3 * at[c] + at[c - kChannels] + 8) >> 4);
     }
   });
 }
 
-// One sweep of the Laplace equation over unsent cells; sent cells and the image's rim hold.
+// One sweep of the Laplace equation over unsent cells; sent cells and the image's rim hold. The
+// means are of two, one rounded up and one down, so that sixteen fit into a register.
 void relax(cv::Mat& level, int shift, const BlockMask& sent, std::vector<std::uint8_t>& scratch) {
   scratch.resize(static_cast<std::size_t>(level.cols) * kChannels);
   std::uint8_t* const line = scratch.data();
@@ -91,8 +108,9 @@ void relax(cv::Mat& level, int shift, const BlockMask& sent, std::vector<std::ui
     const int begin_inner = std::max(first, 1) * kChannels;
     const int end_inner = std::min(end, level.cols - 1) * kChannels;
     for (int i = begin_inner; i < end_inner; ++i) {
-      line[i] = static_cast<std::uint8_t>(
-          (north[i] + south[i] + row[i - kChannels] + row[i + kChannels] + 2) >> 2);
+      const int vertical = (north[i] + south[i] + 1) >> 1;
+      const int horizontal = (row[i - kChannels] + row[i + kChannels]) >> 1;
+      line[i] = static_cast<std::uint8_t>((vertical + horizontal + 1) >> 1);
     }
     if (begin_inner < end_inner) std::copy(line + begin_inner, line + end_inner, row + begin_inner);
   });
@@ -147,26 +165,66 @@ void push_pull(FloatLevel& fine) {
   }
 }
 
-void relax_blocks(FloatLevel& level) {
-  const int columns = level.columns;
-  for (int v = 0; v < level.rows; ++v) {
-    for (int u = 0; u < columns; ++u) {
-      const auto at = [&](int x, int y) {
-        return (static_cast<std::size_t>(std::clamp(y, 0, level.rows - 1)) * columns +
-                static_cast<std::size_t>(std::clamp(x, 0, columns - 1)));
-      };
-      if (level.weight[at(u, v)] > 0.0f) continue;
-      for (std::size_t c = 0; c < kChannels; ++c) {
-        const auto colour = [&](int x, int y) { return level.colour[at(x, y) * kChannels + c]; };
-        level.colour[at(u, v) * kChannels + c] =
-            0.25f * (colour(u - 1, v) + colour(u + 1, v) + colour(u, v - 1) + colour(u, v + 1));
-      }
+// The block level in fixed point, with a rim of one cell that repeats the outermost.
+struct BlockField {
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::int16_t> colour;
+  std::vector<std::int16_t> held;  // all bits set where the colour holds
+  std::vector<std::int16_t> line;
+
+  BlockField(int columns_wanted, int rows_wanted)
+      : columns(columns_wanted),
+        rows(rows_wanted),
+        colour(static_cast<std::size_t>(stride()) * (rows + 2)),
+        held(colour.size()),
+        line(static_cast<std::size_t>(stride())) {}
+
+  int stride() const { return (columns + 2) * kChannels; }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row + 1) * stride() + (column + 1) * kChannels;
+  }
+
+  void repeat_rim(int row) {
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      colour[index(-1, row) + c] = colour[index(0, row) + c];
+      colour[index(columns, row) + c] = colour[index(columns - 1, row) + c];
+    }
+    const auto from = colour.begin() + static_cast<std::ptrdiff_t>(index(-1, row));
+    if (row == 0) std::copy_n(from, stride(), colour.begin());
+    if (row == rows - 1) std::copy_n(from, stride(), from + stride());
+  }
+
+  // Each cell that does not hold becomes the mean of its four neighbours, of which the row before
+  // is new already.
+  void relax_row(int row) {
+    repeat_rim(row);
+    std::int16_t* const here = colour.data() + index(0, row);
+    const std::int16_t* const hold = held.data() + index(0, row);
+    const std::int16_t* const north = here - stride();
+    const std::int16_t* const south = here + stride();
+    std::int16_t* const mean = line.data();
+    const int count = columns * kChannels;
+    for (int i = 0; i < count; ++i) {
+      mean[i] = static_cast<std::int16_t>(
+          (north[i] + south[i] + here[i - kChannels] + here[i + kChannels] + 2) >> 2);
+    }
+    for (int i = 0; i < count; ++i) {
+      here[i] = static_cast<std::int16_t>((here[i] & hold[i]) | (mean[i] & ~hold[i]));
     }
   }
-}
+
+  void relax() {
+    for (int row = 0; row < rows; ++row) repeat_rim(row);
+    for (int sweep = 0; sweep < kBlockSweeps; ++sweep) {
+      for (int i = 0; i < rows; ++i) relax_row(sweep % 2 == 0 ? i : rows - 1 - i);
+    }
+  }
+};
 
 // Colours the unsent cells of the block level.
 void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
+  constexpr int kFraction = 16;  // 255 * 16 * 4 is below 2^15
   FloatLevel level;
   level.columns = blocks.cols;
   level.rows = blocks.rows;
@@ -180,39 +238,66 @@ void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
     }
   }
   push_pull(level);
-  for (int sweep = 0; sweep < kBlockSweeps; ++sweep) relax_blocks(level);
-  for (std::size_t i = 0; i < cells * kChannels; ++i) {
-    blocks.data[i] = cv::saturate_cast<std::uint8_t>(level.colour[i]);
+  BlockField field(blocks.cols, blocks.rows);
+  for (int v = 0, block = 0; v < blocks.rows; ++v) {
+    for (int u = 0; u < blocks.cols; ++u, ++block) {
+      for (std::size_t c = 0; c < kChannels; ++c) {
+        const std::size_t at = static_cast<std::size_t>(block) * kChannels + c;
+        field.colour[field.index(u, v) + c] =
+            static_cast<std::int16_t>(level.colour[at] * kFraction + 0.5f);
+        field.held[field.index(u, v) + c] = sent[block] ? -1 : 0;
+      }
+    }
+  }
+  field.relax();
+  for (int v = 0; v < blocks.rows; ++v) {
+    auto* row = blocks.ptr<std::uint8_t>(v);
+    const std::int16_t* from = field.colour.data() + field.index(0, v);
+    for (int i = 0; i < blocks.cols * kChannels; ++i) {
+      row[i] = static_cast<std::uint8_t>((from[i] + kFraction / 2) / kFraction);
+    }
   }
 }
 
 }  // namespace
 
-cv::Mat SmoothFill::fill(const cv::Mat& bgr, const BlockMask& sent) {
-  const int count = sent.count();
-  if (count == 0) return cv::Mat(bgr.size(), CV_8UC3, cv::Scalar::all(0));
-  cv::Mat filled = bgr.clone();
-  if (count == sent.grid().count()) return filled;
-  levels_[0] = filled;
-  for (std::size_t k = 0; k < kBlockLevel; ++k) reduce(levels_[k], levels_[k + 1]);
-  fill_blocks(levels_[kBlockLevel], sent);
-  for (int k = kBlockLevel - 1; k >= 0; --k) {
-    cv::Mat& level = levels_[static_cast<std::size_t>(k)];
-    enlarge(levels_[static_cast<std::size_t>(k) + 1], level, k, sent);
-    for (int sweep = 0; sweep < kPixelSweeps; ++sweep) relax(level, k, sent, scratch_);
+void SmoothFill::fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction) {
+  const int count = known.count();
+  if (count == 0) bgr.setTo(cv::Scalar::all(0));
+  if (count == 0 || count == known.grid().count()) return;
+  int finest = 0;
+  while (1 << finest < reduction) ++finest;
+  levels_[static_cast<std::size_t>(finest)] = bgr;
+  for (auto k = static_cast<std::size_t>(finest); k < kBlockLevel; ++k) {
+    reduce(levels_[k], levels_[k + 1]);
   }
-  levels_[0].release();
+  fill_blocks(levels_[kBlockLevel], known);
+  for (int k = kBlockLevel - 1; k >= finest; --k) {
+    cv::Mat& level = levels_[static_cast<std::size_t>(k)];
+    enlarge(levels_[static_cast<std::size_t>(k) + 1], level, k, known, blend_);
+    for (int sweep = 0; sweep < kPixelSweeps; ++sweep) relax(level, k, known, scratch_);
+  }
+  levels_[static_cast<std::size_t>(finest)].release();
+}
+
+cv::Mat SmoothFill::fill(const cv::Mat& bgr, const BlockMask& sent) {
+  cv::Mat filled = bgr.clone();
+  fill_in_place(filled, sent);
   return filled;
 }
 
+void black_out(cv::Mat& bgr, const BlockMask& known, int reduction) {
+  int shift = 0;
+  while (1 << shift < reduction) ++shift;
+  for_each_unsent(bgr, shift, known, [&](int v, int first, int end) {
+    auto* row = bgr.ptr<std::uint8_t>(v);
+    std::fill(row + kChannels * first, row + kChannels * end, std::uint8_t{0});
+  });
+}
+
 cv::Mat black_fill(const cv::Mat& bgr, const BlockMask& sent) {
-  cv::Mat filled(bgr.size(), CV_8UC3, cv::Scalar::all(0));
-  const BlockGrid& grid = sent.grid();
-  for (int block = 0; block < grid.count(); ++block) {
-    if (!sent[block]) continue;
-    const cv::Rect rect = grid.rect(block);
-    bgr(rect).copyTo(filled(rect));
-  }
+  cv::Mat filled = bgr.clone();
+  black_out(filled, sent);
   return filled;
 }
 

@@ -3,97 +3,166 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "rprr_geometry/camera.hpp"
 #include "synthetic.hpp"
 
 namespace rprr {
 namespace {
 
-Bytes encoded(const cv::Mat& image, int quality) {
-  Result<std::unique_ptr<ColourEncoder>> encoder = make_colour_encoder("pgf", quality);
+Bytes encoded(const std::string& codec, const cv::Mat& image, int quality) {
+  Result<std::unique_ptr<ColourEncoder>> encoder = make_colour_encoder(codec);
   EXPECT_TRUE(encoder) << encoder.reason();
-  Result<Bytes> payload = (*encoder)->encode(image);
+  Result<Bytes> payload = (*encoder)->encode(image, quality);
   EXPECT_TRUE(payload) << payload.reason();
   return payload ? *payload : Bytes{};
 }
 
-TEST(ColourCodec, LosslessAtQualityZeroForEverySize) {
+double mean_error(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(3 * a.total());
+}
+
+const std::vector<cv::Size> kSizes = {{1, 1}, {1, 40},  {40, 1},  {2, 3},     {5, 5},
+                                      {8, 8}, {17, 31}, {80, 60}, {640, 480}, {541, 361}};
+
+class EveryColourCodec : public ::testing::TestWithParam<std::string> {
+ protected:
+  ColourCodecInfo info() const { return *colour_codec_info(GetParam()); }
+  // Share of the way from best to coarsest.
+  int quality(double share) const {
+    return static_cast<int>(std::lround(info().best + share * (info().coarsest - info().best)));
+  }
+};
+
+TEST_P(EveryColourCodec, EverySizeComesBack) {
   const auto decoder = make_local_colour_decoder();
-  for (const auto& [width, height] : std::vector<std::pair<int, int>>{
-           {1, 1}, {1, 40}, {40, 1}, {2, 3}, {5, 5}, {8, 8}, {17, 31}, {640, 480}, {541, 361}}) {
-    const cv::Mat image = synthetic::colourful(width, height);
-    const Result<cv::Mat> back = decoder->decode("pgf", encoded(image, 0), image.size());
-    ASSERT_TRUE(back) << back.reason() << " " << width << "x" << height;
-    EXPECT_TRUE(synthetic::same(*back, image)) << width << "x" << height;
+  for (const cv::Size& size : kSizes) {
+    const cv::Mat image = synthetic::colourful(size.width, size.height);
+    const Bytes payload = encoded(GetParam(), image, info().best);
+    const Result<cv::Mat> back = decoder->decode(GetParam(), payload, size);
+    ASSERT_TRUE(back) << back.reason() << " " << size;
+    ASSERT_EQ(back->size(), size);
+    // Sharp edges of colour at half the resolution.
+    EXPECT_LT(mean_error(*back, image), 12.0) << size;
+    const Result<cv::Size> stated = colour_payload_size(GetParam(), payload);
+    ASSERT_TRUE(stated) << stated.reason();
+    EXPECT_EQ(*stated, size);
   }
 }
 
-TEST(ColourCodec, CoarserIsSmallerAndStillLikeTheImage) {
+TEST_P(EveryColourCodec, BytesFallAndErrorsRiseAlongTheScale) {
   const auto decoder = make_local_colour_decoder();
   const cv::Mat image = synthetic::colourful(320, 240);
-  std::size_t last = ~std::size_t{0};
-  for (const int quality : {0, 2, 4, 6, 10}) {
-    const Bytes payload = encoded(image, quality);
-    EXPECT_LT(payload.size(), last) << "quality " << quality;
-    last = payload.size();
-    const Result<cv::Mat> back = decoder->decode("pgf", payload, image.size());
+  std::size_t last_bytes = ~std::size_t{0};
+  double last_error = -1.0;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Bytes payload = encoded(GetParam(), image, quality(share));
+    const Result<cv::Mat> back = decoder->decode(GetParam(), payload, image.size());
     ASSERT_TRUE(back) << back.reason();
-    EXPECT_LT(cv::norm(*back, image, cv::NORM_L1) / static_cast<double>(3 * image.total()),
-              quality <= 6 ? 8.0 : 40.0)
-        << "mean error at quality " << quality;
+    EXPECT_LE(payload.size(), last_bytes) << "quality " << quality(share);
+    EXPECT_GE(mean_error(*back, image), 0.8 * last_error) << "quality " << quality(share);
+    last_bytes = payload.size();
+    last_error = mean_error(*back, image);
   }
 }
 
-TEST(ColourCodec, AViewIntoALargerImageComesBack) {
+TEST_P(EveryColourCodec, OneEncoderTakesAnyQualityAndSizeInTurn) {
+  const auto encoder = make_colour_encoder(GetParam());
+  ASSERT_TRUE(encoder);
+  EXPECT_EQ((*encoder)->name(), GetParam());
+  for (const int side : {64, 17, 200}) {
+    const cv::Mat image = synthetic::colourful(side, side);
+    for (const double share : {0.9, 0.1, 0.5}) {
+      const Result<Bytes> payload = (*encoder)->encode(image, quality(share));
+      ASSERT_TRUE(payload) << payload.reason();
+      EXPECT_EQ(*payload, encoded(GetParam(), image, quality(share)));
+    }
+  }
+}
+
+TEST_P(EveryColourCodec, AViewIntoALargerImageIsEncodedAsACopyOfIt) {
   const cv::Mat view = synthetic::colourful(200, 150)(cv::Rect(11, 7, 90, 60));
-  const auto decoder = make_local_colour_decoder();
-  const Result<cv::Mat> back = decoder->decode("pgf", encoded(view, 0), view.size());
-  ASSERT_TRUE(back) << back.reason();
-  EXPECT_TRUE(synthetic::same(*back, view));
+  EXPECT_EQ(encoded(GetParam(), view, quality(0.3)),
+            encoded(GetParam(), view.clone(), quality(0.3)));
 }
 
-TEST(ColourCodec, NamesAndQualitiesAreChecked) {
-  for (const std::string& name : colour_codecs()) EXPECT_TRUE(make_colour_encoder(name, 5)) << name;
-  EXPECT_FALSE(make_colour_encoder("", 5));
-  EXPECT_FALSE(make_colour_encoder("tiff", 5));
-  EXPECT_FALSE(make_colour_encoder("pgf", -1));
-  EXPECT_FALSE(make_colour_encoder("pgf", 31));
-  EXPECT_TRUE(make_colour_encoder("pgf", 30));
+TEST_P(EveryColourCodec, WrongInputsAreErrors) {
+  const auto encoder = make_colour_encoder(GetParam());
+  const cv::Mat image = synthetic::colourful(40, 30);
+  EXPECT_FALSE((*encoder)->encode(cv::Mat(), info().best));
+  EXPECT_FALSE((*encoder)->encode(cv::Mat(8, 8, CV_8UC1), info().best));
+  EXPECT_FALSE((*encoder)->encode(cv::Mat(1, kMaxImageSide + 1, CV_8UC3), info().best));
+  const int low = std::min(info().best, info().coarsest);
+  const int high = std::max(info().best, info().coarsest);
+  EXPECT_TRUE((*encoder)->encode(image, low));
+  EXPECT_TRUE((*encoder)->encode(image, high));
+  EXPECT_FALSE((*encoder)->encode(image, low - 1));
+  EXPECT_FALSE((*encoder)->encode(image, high + 1));
 }
 
-TEST(ColourCodec, WrongInputsAreErrors) {
-  const auto encoder = make_colour_encoder("pgf", 5);
-  EXPECT_FALSE((*encoder)->encode(cv::Mat()));
-  EXPECT_FALSE((*encoder)->encode(cv::Mat(8, 8, CV_8UC1)));
+TEST_P(EveryColourCodec, CutAndDamagedPayloadsAreErrors) {
   const auto decoder = make_local_colour_decoder();
-  const Bytes payload = encoded(synthetic::colourful(40, 30), 3);
-  EXPECT_FALSE(decoder->decode("pgf", payload, cv::Size(30, 40)));
-  EXPECT_FALSE(decoder->decode("webp", payload, cv::Size(40, 30)));
-  for (std::size_t size = 0; size < payload.size(); ++size) {
-    EXPECT_FALSE(decoder->decode("pgf", ByteView(payload).first(size), cv::Size(40, 30)))
-        << "cut to " << size;
+  const cv::Size size(40, 30);
+  const Bytes payload = encoded(GetParam(), synthetic::colourful(40, 30), quality(0.3));
+  EXPECT_FALSE(decoder->decode(GetParam(), payload, cv::Size(30, 40)));
+  EXPECT_FALSE(decoder->decode("gif", payload, size));
+  for (std::size_t cut = 0; cut < payload.size(); ++cut) {
+    EXPECT_FALSE(decoder->decode(GetParam(), ByteView(payload).first(cut), size)) << "cut " << cut;
   }
   for (std::size_t i = 0; i < payload.size(); ++i) {
     Bytes damaged = payload;
     damaged[i] ^= 1;
-    EXPECT_FALSE(decoder->decode("pgf", damaged, cv::Size(40, 30))) << "byte " << i;
+    EXPECT_FALSE(decoder->decode(GetParam(), damaged, size)) << "byte " << i;
   }
 }
 
-TEST(ColourPayloadSize, IsThatOfTheImageAndOnlyOfAWholePayload) {
-  const cv::Mat image = synthetic::colourful(61, 9);
-  Result<Bytes> payload = (*make_colour_encoder("pgf", 6))->encode(image);
-  ASSERT_TRUE(payload);
-  const Result<cv::Size> size = colour_payload_size("pgf", *payload);
-  ASSERT_TRUE(size) << size.reason();
-  EXPECT_EQ(*size, image.size());
-  EXPECT_FALSE(colour_payload_size("jpeg", *payload));
-  EXPECT_FALSE(colour_payload_size("pgf", {}));
-  payload->resize(payload->size() - 4);
-  (*payload)[2] = (*payload)[3] = 0xff;  // 65535 columns
-  seal(*payload);
-  EXPECT_FALSE(colour_payload_size("pgf", *payload));
-  payload->pop_back();
-  EXPECT_FALSE(colour_payload_size("pgf", *payload));
+TEST_P(EveryColourCodec, StatedSizesOfHostilePayloadsArePossible) {
+  std::mt19937 random(11);
+  const Bytes payload = encoded(GetParam(), synthetic::colourful(61, 9), quality(0.5));
+  int stated = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Bytes hostile(payload.begin(), payload.end() - 4);
+    for (std::uint32_t i = 0; i <= random() % 4; ++i) {
+      hostile[random() % hostile.size()] = static_cast<std::uint8_t>(random());
+    }
+    if (trial % 3 == 0) hostile.resize(random() % hostile.size());
+    seal(hostile);
+    const Result<cv::Size> size = colour_payload_size(GetParam(), hostile);
+    if (!size) continue;
+    ++stated;
+    EXPECT_TRUE(size->width >= 1 && size->height >= 1);
+    EXPECT_LE(std::max(size->width, size->height), kMaxImageSide);
+  }
+  EXPECT_GT(stated, 1000);
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::string>& info) {
+  return info.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryColourCodec, ::testing::ValuesIn(colour_codecs()), name_of);
+
+TEST(ColourCodecs, AreFoundByName) {
+  EXPECT_EQ(colour_codecs(), (std::vector<std::string>{"pgf", "jpeg", "webp"}));
+  for (const std::string name : {"", "tiff", "PGF"}) {
+    EXPECT_FALSE(make_colour_encoder(name));
+    EXPECT_FALSE(colour_codec_info(name));
+    EXPECT_FALSE(colour_payload_size(name, {}));
+  }
+  EXPECT_NE(make_colour_encoder("tiff").reason().find("pgf, jpeg, webp"), std::string::npos);
+}
+
+TEST(Pgf, IsLosslessAtQualityZeroForEverySize) {
+  const auto decoder = make_local_colour_decoder();
+  for (const cv::Size& size : kSizes) {
+    const cv::Mat image = synthetic::colourful(size.width, size.height);
+    const Result<cv::Mat> back = decoder->decode("pgf", encoded("pgf", image, 0), size);
+    ASSERT_TRUE(back) << back.reason() << " " << size;
+    EXPECT_TRUE(synthetic::same(*back, image)) << size;
+  }
 }
 
 }  // namespace

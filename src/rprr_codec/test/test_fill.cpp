@@ -63,14 +63,40 @@ TEST(Fill, StaysWithinTheRangeOfWhatIsSent) {
   EXPECT_LE(filled_high, high + 1);
 }
 
+TEST(Fill, KnownPixelsOfReducedImagesAreNeverAltered) {
+  SmoothFill smooth;
+  for (const int reduction : {1, 2, 4, 8}) {
+    const BlockGrid grid(163, 122);
+    const cv::Mat image =
+        synthetic::colourful((163 + reduction - 1) / reduction, (122 + reduction - 1) / reduction);
+    for (const double share : {0.0, 0.3, 1.0}) {
+      const BlockMask known = synthetic::some_blocks(grid, share);
+      cv::Mat smoothed = image.clone();
+      cv::Mat blackened = image.clone();
+      smooth.fill_in_place(smoothed, known, reduction);
+      black_out(blackened, known, reduction);
+      for (int v = 0; v < image.rows; ++v) {
+        for (int u = 0; u < image.cols; ++u) {
+          const bool is_known = known[grid.index_of_pixel(u * reduction, v * reduction)];
+          const auto pixel = image.at<cv::Vec3b>(v, u);
+          EXPECT_EQ(blackened.at<cv::Vec3b>(v, u), is_known ? pixel : cv::Vec3b());
+          if (is_known) {
+            EXPECT_EQ(smoothed.at<cv::Vec3b>(v, u), pixel);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Fill, SmoothCostsLessThanBlack) {
   SmoothFill smooth;
   const cv::Mat image = synthetic::colourful(640, 480);
   const BlockMask sent = synthetic::some_blocks(BlockGrid(640, 480), 0.2);
-  const auto encoder = make_colour_encoder("pgf", 5);
+  const auto encoder = make_colour_encoder("pgf");
   ASSERT_TRUE(encoder);
-  const Result<Bytes> smooth_bytes = (*encoder)->encode(smooth.fill(image, sent));
-  const Result<Bytes> black_bytes = (*encoder)->encode(black_fill(image, sent));
+  const Result<Bytes> smooth_bytes = (*encoder)->encode(smooth.fill(image, sent), 5);
+  const Result<Bytes> black_bytes = (*encoder)->encode(black_fill(image, sent), 5);
   ASSERT_TRUE(smooth_bytes && black_bytes);
   EXPECT_LT(static_cast<double>(smooth_bytes->size()),
             0.8 * static_cast<double>(black_bytes->size()));

@@ -30,9 +30,15 @@ class FrameCodec : public ::testing::Test {
   }
   // Encoded, through the container, decoded.
   DecodedFrame through(EncodedFrame frame, const FrameCodecOptions& options) {
+    const Result<FrameEncoder> encoder = FrameEncoder::create(options);
+    EXPECT_TRUE(encoder) << encoder.reason();
+    return encoder ? through(frame, options, encoder->settings()) : DecodedFrame{};
+  }
+  DecodedFrame through(EncodedFrame frame, const FrameCodecOptions& options,
+                       const LayerSettings& settings) {
     Result<FrameEncoder> encoder = FrameEncoder::create(options);
     EXPECT_TRUE(encoder) << encoder.reason();
-    const Result<bool> encoded = encoder->encode(depth_, bgr_, frame);
+    const Result<bool> encoded = encoder->encode(depth_, bgr_, frame, settings);
     EXPECT_TRUE(encoded) << encoded.reason();
     const Result<EncodedFrame> parsed = parse_encoded_frame(serialise(frame));
     EXPECT_TRUE(parsed) << parsed.reason();
@@ -111,6 +117,133 @@ TEST_F(FrameCodec, NothingToSendTakesNoPayload) {
   EXPECT_FALSE(decoder_.decode(frame));
 }
 
+TEST_F(FrameCodec, DetailOfEveryCodecComesBackInEitherLayout) {
+  for (const std::string& codec : colour_codecs()) {
+    for (const double share : {0.02, 0.2, 0.8}) {
+      const BlockMask mask = synthetic::some_blocks(BlockGrid(kWidth, kHeight), share);
+      FrameCodecOptions options;
+      options.colour_codec = codec;
+      options.colour_quality = colour_codec_info(codec)->best;
+      const DecodedFrame decoded = through(frame_of(&mask), options);
+      EXPECT_TRUE(decoded.has_detail);
+      EXPECT_TRUE(synthetic::same(decoded.bgr, synthetic::only(decoded.bgr, mask)))
+          << "outside of the mask it is black";
+      const double error = cv::norm(decoded.bgr, synthetic::only(bgr_, mask), cv::NORM_L1) /
+                           (3.0 * cv::countNonZero(mask.to_image()));
+      EXPECT_LE(error, codec == "pgf" ? 0.0 : 12.0) << codec << " " << share;
+    }
+  }
+}
+
+TEST_F(FrameCodec, BaseOfEveryReductionComesBack) {
+  const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
+  FrameCodecOptions options;
+  for (const int reduction : {1, 2, 4, 8}) {
+    cv::Mat expected;
+    reduce_image(bgr_, reduction, expected);
+    ASSERT_EQ(expected.size(), base_size(bgr_.size(), reduction));
+    for (const bool detail : {true, false}) {
+      const DecodedFrame decoded = through(frame_of(&mask), options, {reduction, 0, 0, detail});
+      ASSERT_EQ(decoded.base.size(), expected.size());
+      EXPECT_EQ(decoded.has_detail, detail);
+      EXPECT_TRUE(synthetic::same(decoded.depth.counts, synthetic::only(depth_.counts, mask)));
+      const BlockGrid& grid = mask.grid();
+      int wrong = 0;
+      for (int v = 0; v < expected.rows; ++v) {
+        for (int u = 0; u < expected.cols; ++u) {
+          if (detail && mask[grid.index_of_pixel(u * reduction, v * reduction)]) continue;
+          wrong += decoded.base.at<cv::Vec3b>(v, u) != expected.at<cv::Vec3b>(v, u) ? 1 : 0;
+        }
+      }
+      EXPECT_EQ(wrong, 0) << "reduction " << reduction;
+      EXPECT_EQ(
+          cv::norm(decoded.bgr, detail ? synthetic::only(bgr_, mask) : bgr_ * 0.0, cv::NORM_INF),
+          0.0);
+    }
+  }
+}
+
+TEST_F(FrameCodec, BaseOfAnotherCodecAndWithoutAnyBlock) {
+  const BlockMask none(BlockGrid(kWidth, kHeight));
+  FrameCodecOptions options;
+  options.base_codec = "webp";
+  options.base_reduction = 2;
+  options.base_quality = 50;
+  const DecodedFrame decoded = through(frame_of(&none), options);
+  EXPECT_FALSE(decoded.has_detail);
+  EXPECT_EQ(decoded.base.size(), base_size(bgr_.size(), 2));
+  EXPECT_EQ(cv::norm(decoded.bgr, cv::NORM_INF), 0.0);
+  const DecodedFrame whole = through(frame_of(nullptr), options);
+  EXPECT_TRUE(whole.has_detail);
+  EXPECT_TRUE(whole.base.empty()) << "a whole frame needs none";
+}
+
+TEST_F(FrameCodec, SeveralSettingsOfOneFrame) {
+  const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
+  Result<FrameEncoder> encoder = FrameEncoder::create({});
+  EncodedFrame stepwise = frame_of(&mask);
+  ASSERT_TRUE(encoder->prepare(depth_, bgr_, stepwise));
+  for (const int quality : {20, 3, 9}) {
+    const LayerSettings settings = {2, quality, quality, true};
+    const Result<Bytes> tried = encoder->layers().encode_detail(quality);
+    ASSERT_TRUE(encoder->encode_colour(stepwise, settings));
+    EXPECT_EQ(*tried, stepwise.colour);
+    EncodedFrame at_once = frame_of(&mask);
+    Result<FrameEncoder> other = FrameEncoder::create({});
+    ASSERT_TRUE(other->encode(depth_, bgr_, at_once, settings));
+    EXPECT_EQ(stepwise.depth, at_once.depth);
+    EXPECT_EQ(stepwise.colour, at_once.colour);
+    EXPECT_EQ(stepwise.base, at_once.base);
+  }
+}
+
+TEST_F(FrameCodec, SettingsThatDoNotExistAreErrors) {
+  const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
+  Result<FrameEncoder> encoder = FrameEncoder::create({});
+  const auto encodes = [&](const BlockMask* sent, const LayerSettings& settings) {
+    EncodedFrame frame = frame_of(sent);
+    return static_cast<bool>(encoder->encode(depth_, bgr_, frame, settings));
+  };
+  EXPECT_TRUE(encodes(&mask, {2, 10, 6, true}));
+  EXPECT_TRUE(encodes(&mask, {2, 10, 6, false}));
+  EXPECT_FALSE(encodes(&mask, {0, 10, 6, false})) << "no colour at all";
+  EXPECT_FALSE(encodes(&mask, {3, 10, 6, true})) << "no such reduction";
+  EXPECT_FALSE(encodes(&mask, {16, 10, 6, true})) << "no such reduction";
+  EXPECT_FALSE(encodes(&mask, {2, 31, 6, true})) << "no such quality";
+  EXPECT_FALSE(encodes(&mask, {2, 10, -1, true})) << "no such quality";
+  EXPECT_FALSE(encodes(nullptr, {2, 10, 6, false})) << "a whole frame without its image";
+  EXPECT_TRUE(encodes(nullptr, {2, 10, 6, true}));
+}
+
+TEST_F(FrameCodec, HostileBasesAndLayoutsAreErrors) {
+  const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
+  Result<FrameEncoder> encoder = FrameEncoder::create({});
+  EncodedFrame good = frame_of(&mask);
+  ASSERT_TRUE(encoder->encode(depth_, bgr_, good, {2, 10, 6, true}));
+  ASSERT_TRUE(decoder_.decode(good));
+  const auto refused = [&](auto change, const std::string& what) {
+    EncodedFrame frame = good;
+    change(frame);
+    EXPECT_FALSE(decoder_.decode(frame)) << what;
+  };
+  refused([](EncodedFrame& f) { f.base_reduction = 4; }, "base of another size");
+  refused([](EncodedFrame& f) { f.base_reduction = 3; }, "no such reduction");
+  refused([](EncodedFrame& f) { f.base.pop_back(); }, "damaged base");
+  refused([](EncodedFrame& f) { f.base_codec = "jpeg"; }, "base of another codec");
+  refused([](EncodedFrame& f) { f.colour.pop_back(); }, "damaged detail");
+  refused([](EncodedFrame& f) { f.base_reduction = 0, f.colour.clear(); }, "no colour");
+  EXPECT_EQ(good.colour_layout, ColourLayout::kCompact);
+  refused([](EncodedFrame& f) { f.colour_layout = ColourLayout::kInPlace; }, "another layout");
+  EncodedFrame whole = frame_of(nullptr);
+  ASSERT_TRUE(encoder->encode(depth_, bgr_, whole));
+  whole.colour_layout = ColourLayout::kCompact;
+  EXPECT_FALSE(decoder_.decode(whole));
+  whole.colour_layout = ColourLayout::kInPlace;
+  whole.base = good.base;
+  whole.base_reduction = 2;
+  EXPECT_FALSE(decoder_.decode(whole));
+}
+
 TEST_F(FrameCodec, IndependentBytesAreThoseOfTheWholeFrame) {
   FrameCodecOptions options;
   options.measure_independent = true;
@@ -136,6 +269,17 @@ TEST_F(FrameCodec, InputsThatDoNotFitAreErrors) {
   FrameCodecOptions coarse;
   coarse.colour_quality = 31;
   EXPECT_FALSE(FrameEncoder::create(coarse));
+  FrameCodecOptions base;
+  base.base_codec = "gif";
+  EXPECT_FALSE(FrameEncoder::create(base));
+  base.base_codec = "jpeg";
+  base.base_reduction = 2;
+  base.base_quality = 0;
+  EXPECT_FALSE(FrameEncoder::create(base));
+  base.base_quality = 1;
+  EXPECT_TRUE(FrameEncoder::create(base));
+  base.base_reduction = 5;
+  EXPECT_FALSE(FrameEncoder::create(base));
 
   Result<FrameEncoder> encoder = FrameEncoder::create({});
   EncodedFrame frame = frame_of(nullptr);

@@ -45,9 +45,9 @@ std::size_t open_descriptors() {
 
 class IsolatedDecoder : public ::testing::Test {
  protected:
-  IsolatedDecoder() : image_(synthetic::colourful(160, 120)) {
-    const auto encoder = make_colour_encoder("pgf", 4);
-    payload_ = *(*encoder)->encode(image_);
+  IsolatedDecoder() : image_(synthetic::colourful(160, 120)) { payload_ = payload_of("pgf", 4); }
+  Bytes payload_of(const std::string& codec, int quality) const {
+    return *(*make_colour_encoder(codec))->encode(image_, quality);
   }
   void expect_good(ColourDecoder& decoder) {
     const Result<cv::Mat> isolated = decoder.decode("pgf", payload_, image_.size());
@@ -64,7 +64,16 @@ class IsolatedDecoder : public ::testing::Test {
 TEST_F(IsolatedDecoder, DecodesAsTheLocalOneDoes) {
   const auto decoder = make_isolated_colour_decoder();
   for (int i = 0; i < 5; ++i) expect_good(*decoder);
-  EXPECT_FALSE(decoder->decode("webp", payload_, image_.size()));
+  for (const std::string& codec : colour_codecs()) {
+    const Bytes payload = payload_of(codec, 20);
+    const Result<cv::Mat> isolated = decoder->decode(codec, payload, image_.size());
+    ASSERT_TRUE(isolated) << codec << ": " << isolated.reason();
+    EXPECT_TRUE(synthetic::same(
+        *isolated, *make_local_colour_decoder()->decode(codec, payload, image_.size())));
+    for (const std::string& other : colour_codecs()) {
+      EXPECT_EQ(static_cast<bool>(decoder->decode(other, payload, image_.size())), other == codec);
+    }
+  }
   EXPECT_FALSE(decoder->decode("pgf", payload_, cv::Size(120, 160)));
   EXPECT_FALSE(decoder->decode("pgf", {}, image_.size()));
   EXPECT_FALSE(decoder->decode("pgf", payload_, cv::Size(0, 0)));
@@ -76,24 +85,27 @@ TEST_F(IsolatedDecoder, DecodesAsTheLocalOneDoes) {
 TEST_F(IsolatedDecoder, HostilePayloadsCostOneErrorEach) {
   const auto decoder = make_isolated_colour_decoder({0.5, std::size_t{512} << 20});
   std::mt19937 random(8);
-  int errors = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    Bytes hostile(payload_.begin(), payload_.end() - 4);
-    // Half of them in the headers, where libpgf is weakest; our own six bytes stay.
-    const std::size_t reach = trial % 2 == 0 ? 40 : hostile.size() - 6;
-    for (std::uint32_t i = 0; i <= random() % 4; ++i) {
-      hostile[6 + random() % reach] = static_cast<std::uint8_t>(random());
+  for (const std::string& codec : colour_codecs()) {
+    const Bytes payload = payload_of(codec, 10);
+    int errors = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      Bytes hostile(payload.begin(), payload.end() - 4);
+      // Half of them in the headers, where decoders are weakest.
+      const std::size_t reach = trial % 2 == 0 ? 40 : hostile.size();
+      for (std::uint32_t i = 0; i <= random() % 4; ++i) {
+        hostile[random() % reach] = static_cast<std::uint8_t>(random());
+      }
+      if (trial % 7 == 0) hostile.resize(random() % hostile.size());
+      seal(hostile);
+      const Result<cv::Mat> image = decoder->decode(codec, hostile, image_.size());
+      errors += image ? 0 : 1;
+      if (image) {
+        EXPECT_EQ(image->size(), image_.size());
+      }
+      if (trial % 20 == 0) expect_good(*decoder);
     }
-    if (trial % 7 == 0) hostile.resize(6 + random() % (hostile.size() - 6));
-    seal(hostile);
-    const Result<cv::Mat> image = decoder->decode("pgf", hostile, image_.size());
-    errors += image ? 0 : 1;
-    if (image) {
-      EXPECT_EQ(image->size(), image_.size());
-    }
-    if (trial % 20 == 0) expect_good(*decoder);
+    EXPECT_GT(errors, 20) << codec << ": the mutations were too tame";
   }
-  EXPECT_GT(errors, 20) << "the mutations were too tame";
   expect_good(*decoder);
 }
 

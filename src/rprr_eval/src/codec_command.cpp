@@ -88,9 +88,10 @@ std::vector<CodecFigures> survey(const std::string& name, const Images& images,
         survey_sparse(images.depth, *codecs[i].ours, {0.3, 0.1, 0.02}, arguments.draws);
   }
   if (images.bgr.empty() || !arguments.colour) return figures;
-  const auto encoder = make_colour_encoder("pgf", arguments.quality);
+  const auto encoder = make_colour_encoder("pgf");
   const auto decoder = make_local_colour_decoder();
-  figures.push_back(survey_colour(name, images.bgr, **encoder, *decoder, arguments.repeats));
+  figures.push_back(
+      survey_colour(name, images.bgr, **encoder, arguments.quality, *decoder, arguments.repeats));
   figures.back().codec += std::to_string(arguments.quality);
   return figures;
 }

@@ -92,10 +92,10 @@ Trip depth_trip(DepthCodec& codec, const cv::Mat& counts) {
   return trip;
 }
 
-Trip colour_trip(ColourEncoder& encoder, ColourDecoder& decoder, const cv::Mat& bgr) {
+Trip colour_trip(ColourEncoder& encoder, int quality, ColourDecoder& decoder, const cv::Mat& bgr) {
   Trip trip;
   Result<Bytes> coded = Error{"not encoded"};
-  trip.encode_ms = milliseconds([&] { coded = encoder.encode(bgr); });
+  trip.encode_ms = milliseconds([&] { coded = encoder.encode(bgr, quality); });
   if (!coded) return trip;
   Result<cv::Mat> back = Error{"not decoded"};
   trip.decode_ms = milliseconds([&] { back = decoder.decode(encoder.name(), *coded, bgr.size()); });
@@ -159,10 +159,11 @@ std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames, 
 }
 
 CodecFigures survey_colour(const std::string& folder, const std::vector<cv::Mat>& images,
-                           ColourEncoder& encoder, ColourDecoder& decoder, int repeats) {
+                           ColourEncoder& encoder, int quality, ColourDecoder& decoder,
+                           int repeats) {
   Series series;
   for (const cv::Mat& bgr : images) {
-    series.add(best_of(repeats, [&] { return colour_trip(encoder, decoder, bgr); }));
+    series.add(best_of(repeats, [&] { return colour_trip(encoder, quality, decoder, bgr); }));
   }
   CodecFigures figures = series.figures(encoder.name(), folder);
   figures.colour = true;

@@ -11,14 +11,28 @@
 
 namespace rprr {
 
+/// A codec and its own scale of quality: whole numbers from best to coarsest, whichever is larger.
+/// Bytes and error go the same way along it, so that a rate can be found by halving.
+struct ColourCodecInfo {
+  std::string name;
+  int best = 0;
+  int coarsest = 0;
+
+  bool has_quality(int quality) const {
+    return best < coarsest ? best <= quality && quality <= coarsest
+                           : coarsest <= quality && quality <= best;
+  }
+};
+
 /// Encodes 8-bit BGR images (CV_8UC3). One object serves one thread.
 class ColourEncoder {
  public:
   virtual ~ColourEncoder() = default;
-  /// Name by which the decoder is found: "pgf", later others.
+  /// Name by which the decoder is found.
   virtual std::string name() const = 0;
-  /// The payload, sealed with a CRC-32, or why there is none.
-  virtual Result<Bytes> encode(const cv::Mat& bgr) = 0;
+  /// The payload, sealed with a CRC-32. quality is on the codec's own scale. Errors: another type
+  /// of image, one without pixels or beyond kMaxImageSide, a quality out of range.
+  virtual Result<Bytes> encode(const cv::Mat& bgr, int quality) = 0;
 };
 
 /// Decodes untrusted payloads of any codec that this build knows. One object serves one thread.
@@ -33,11 +47,12 @@ class ColourDecoder {
 /// 1 to kMaxImageSide pixels a side. Errors: damaged, unknown. The pixels are not looked at.
 Result<cv::Size> colour_payload_size(const std::string& codec, ByteView payload);
 
-/// Names that make_colour_encoder takes.
+/// Names that make_colour_encoder takes: pgf, jpeg, webp.
 std::vector<std::string> colour_codecs();
-/// quality is the codec's own scale. pgf: 0 lossless, 1 finest, 30 coarsest. Errors: unknown name
-/// or a quality out of range.
-Result<std::unique_ptr<ColourEncoder>> make_colour_encoder(const std::string& codec, int quality);
+/// pgf: 0 lossless, 1 finest, 30 coarsest. jpeg: 100 to 1. webp: 100 to 0. Error: unknown name.
+Result<ColourCodecInfo> colour_codec_info(const std::string& codec);
+/// Error: unknown name.
+Result<std::unique_ptr<ColourEncoder>> make_colour_encoder(const std::string& codec);
 
 /// Decodes in this process: for payloads of our own making only. libpgf crashes on hostile bytes.
 std::unique_ptr<ColourDecoder> make_local_colour_decoder();

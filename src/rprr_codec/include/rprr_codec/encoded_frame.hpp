@@ -27,6 +27,18 @@ struct FrameReport {
   float ms_encode = 0.0f;
 };
 
+/// Where the blocks of a sparse frame stand in its colour image.
+enum class ColourLayout : std::uint8_t {
+  kInPlace,  // an image of the camera's size, meaningful in the mask's blocks
+  kCompact,  // the mask's blocks moved together (compact_layout.hpp)
+};
+
+/// The base of a sparse frame is its whole colour image, coarser: ceil(width / reduction) by
+/// ceil(height / reduction) pixels, each the mean of its cell.
+constexpr bool is_base_reduction(int reduction) {
+  return reduction == 1 || reduction == 2 || reduction == 4 || reduction == 8;
+}
+
 /// One RGB-D frame as it crosses the radio: whole, or the blocks that the station cannot derive
 /// from a reference frame.
 struct EncodedFrame {
@@ -39,7 +51,13 @@ struct EncodedFrame {
   BlockMask depth_mask;            // sparse: of these, the ones with depth; empty: all of them
   Bytes depth;                     // DHC-M payload of the whole frame or of depth_blocks()
   std::string colour_codec;        // name for ColourDecoder
-  Bytes colour;  // payload; of a sparse frame: whole image, meaningful in the mask's blocks
+  /// Detail: the image, or of a sparse frame the mask's blocks; empty where no block's colour is
+  /// sent but the base's.
+  Bytes colour;
+  ColourLayout colour_layout = ColourLayout::kInPlace;  // kCompact: sparse only
+  std::string base_codec;                               // name for ColourDecoder
+  Bytes base;              // sparse only; meaningful where there is no detail
+  int base_reduction = 0;  // 0: no base; 1, 2, 4, 8
   FrameReport report;
 
   /// sparse: the blocks whose depth is sent, a subset of mask.
@@ -50,7 +68,8 @@ struct EncodedFrame {
 struct EncodedSizes {
   std::size_t mask = 0;
   std::size_t depth = 0;
-  std::size_t colour = 0;
+  std::size_t colour = 0;  // detail
+  std::size_t base = 0;
   std::size_t extras = 0;
   std::size_t total = 0;
 };
@@ -58,7 +77,8 @@ struct EncodedSizes {
 /// The container: versioned, lengths checked, sealed with a CRC-32 (doc/encoded_frame.md).
 Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes = nullptr);
 /// Untrusted bytes to a frame whose numbers make sense (camera valid, motion rigid, masks of
-/// the camera's grid, depth_mask within mask). The payloads inside are still untrusted.
+/// the camera's grid, depth_mask within mask, base and layout as above). The payloads inside are
+/// still untrusted.
 Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes = nullptr);
 
 /// Length of the rprr_msgs/EncodedFrame that carries data_bytes, serialised by ROS.

@@ -19,12 +19,19 @@ class SmoothFill {
   /// is of the image's grid. Black where no block at all is sent.
   cv::Mat fill(const cv::Mat& bgr, const BlockMask& sent);
 
+  /// The same without a copy, of an image of which each pixel stands for reduction x reduction
+  /// pixels of the mask's grid: 1, 2, 4 or 8. A block is 8 / reduction pixels wide and high.
+  void fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction = 1);
+
  private:
   std::array<cv::Mat, 4> levels_;  // CV_8UC3; level k has cells of 2^k pixels, 3 is a block
   std::vector<std::uint8_t> scratch_;
+  std::vector<std::uint16_t> blend_;
 };
 
 /// A copy with all pixels outside the mask's blocks black: the paper's.
 cv::Mat black_fill(const cv::Mat& bgr, const BlockMask& sent);
+/// The same without a copy, reduction as of SmoothFill.
+void black_out(cv::Mat& bgr, const BlockMask& known, int reduction = 1);
 
 }  // namespace rprr

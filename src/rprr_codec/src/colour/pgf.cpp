@@ -7,7 +7,7 @@
 #include <exception>
 #include <opencv2/core.hpp>
 
-#include "rprr_geometry/camera.hpp"
+#include "colour/checks.hpp"
 
 namespace rprr {
 namespace {
@@ -81,10 +81,7 @@ Result<cv::Size> open_container(ByteReader& reader) {
   const int height = reader.get<std::uint16_t>();
   if (!reader.ok()) return Error{"colour payload damaged or cut short"};
   if (version != kVersion) return Error{"colour payload of an unknown version"};
-  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
-    return Error{"colour payload states an impossible image size"};
-  }
-  return cv::Size(width, height);
+  return possible_size(width, height);
 }
 
 cv::Mat widened(const cv::Mat& bgr) {
@@ -98,16 +95,16 @@ cv::Mat widened(const cv::Mat& bgr) {
 
 }  // namespace
 
-Result<Bytes> PgfEncoder::encode(const cv::Mat& bgr) {
-  if (bgr.empty() || bgr.type() != CV_8UC3) return Error{"colour image is not 8-bit BGR"};
-  if (bgr.cols > kMaxImageSide || bgr.rows > kMaxImageSide) return Error{"colour image too large"};
+Result<Bytes> PgfEncoder::encode(const cv::Mat& bgr, int quality) {
+  const std::string wrong = unencodable(bgr, quality, info());
+  if (!wrong.empty()) return Error{wrong};
   Result<Bytes> pgf =
-      guarded<Bytes>("encoding PGF", [&] { return encode_image(widened(bgr), quality_); });
+      guarded<Bytes>("encoding PGF", [&] { return encode_image(widened(bgr), quality); });
   if (!pgf) return pgf;
   ByteWriter writer;
   writer.bytes().reserve(pgf->size() + 10);
   writer.put(kVersion);
-  writer.put(static_cast<std::uint8_t>(quality_));
+  writer.put(static_cast<std::uint8_t>(quality));
   writer.put(static_cast<std::uint16_t>(bgr.cols));
   writer.put(static_cast<std::uint16_t>(bgr.rows));
   writer.append(*pgf);

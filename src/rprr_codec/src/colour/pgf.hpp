@@ -7,17 +7,12 @@
 
 namespace rprr {
 
-/// libpgf's quality scale: 0 lossless, 1 finest.
-constexpr int kPgfMaxQuality = 30;
-
+/// libpgf's quality scale: 0 lossless, 1 finest, 30 coarsest.
 class PgfEncoder : public ColourEncoder {
  public:
-  explicit PgfEncoder(int quality) : quality_(quality) {}
-  std::string name() const override { return "pgf"; }
-  Result<Bytes> encode(const cv::Mat& bgr) override;
-
- private:
-  int quality_;
+  static ColourCodecInfo info() { return {"pgf", 0, 30}; }
+  std::string name() const override { return info().name; }
+  Result<Bytes> encode(const cv::Mat& bgr, int quality) override;
 };
 
 /// Container of version 1: u8 version, u8 quality, u16 width, u16 height, PGF bytes, u32 CRC-32.

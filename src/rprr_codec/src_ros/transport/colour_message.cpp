@@ -28,13 +28,12 @@ Result<sensor_msgs::CompressedImage> ColourMessageEncoder::encode(const sensor_m
                                                                   int quality) {
   const Result<cv::Mat> bgr = bgr_from_image(image);
   if (!bgr) return Error{bgr.reason()};
-  if (quality != quality_) {
-    Result<std::unique_ptr<ColourEncoder>> made = make_colour_encoder("pgf", quality);
+  if (!encoder_) {
+    Result<std::unique_ptr<ColourEncoder>> made = make_colour_encoder("pgf");
     if (!made) return Error{made.reason()};
     encoder_ = std::move(*made);
-    quality_ = quality;
   }
-  Result<Bytes> payload = encoder_->encode(*bgr);
+  Result<Bytes> payload = encoder_->encode(*bgr, quality);
   if (!payload) return Error{payload.reason()};
   sensor_msgs::CompressedImage message;
   message.header = image.header;

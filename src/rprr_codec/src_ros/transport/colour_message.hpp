@@ -21,7 +21,6 @@ class ColourMessageEncoder {
   Result<sensor_msgs::CompressedImage> encode(const sensor_msgs::Image& image, int quality);
 
  private:
-  int quality_ = -1;
   std::unique_ptr<ColourEncoder> encoder_;
 };
 

@@ -44,7 +44,8 @@ std::vector<SparseFigures> survey_sparse(const std::vector<DepthFrame>& frames, 
                                          const std::vector<double>& shares, int draws);
 
 CodecFigures survey_colour(const std::string& folder, const std::vector<cv::Mat>& images,
-                           ColourEncoder& encoder, ColourDecoder& decoder, int repeats);
+                           ColourEncoder& encoder, int quality, ColourDecoder& decoder,
+                           int repeats);
 
 /// Markdown: ratios, times, times as multiples of RVL's (where that was measured) and what sparse
 /// frames cost; a column a folder. Colour is left out.

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_codec/colour_layers.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <utility>
+
+namespace rprr {
+namespace {
+
+constexpr int kChannels = 3;
+
+// Which power of two.
+std::size_t halvings(int reduction) {
+  std::size_t count = 0;
+  while (1 << count < reduction) ++count;
+  return count;
+}
+
+// Mean of one cell, clipped to the image.
+cv::Vec3b mean_of(const cv::Mat& bgr, const cv::Rect& cell) {
+  std::array<int, kChannels> sum = {};
+  for (int v = cell.y; v < cell.y + cell.height; ++v) {
+    const auto* row = bgr.ptr<std::uint8_t>(v) + kChannels * cell.x;
+    for (int i = 0; i < kChannels * cell.width; i += kChannels) {
+      for (std::size_t c = 0; c < kChannels; ++c) sum[c] += row[static_cast<std::size_t>(i) + c];
+    }
+  }
+  const int area = cell.area();
+  const auto mean = [&](std::size_t c) {
+    return static_cast<std::uint8_t>((sum[c] + area / 2) / area);
+  };
+  return {mean(0), mean(1), mean(2)};
+}
+
+}  // namespace
+
+cv::Size base_size(cv::Size image, int reduction) {
+  return {(image.width + reduction - 1) / reduction, (image.height + reduction - 1) / reduction};
+}
+
+void reduce_image(const cv::Mat& bgr, int reduction, cv::Mat& reduced) {
+  reduced.create(base_size(bgr.size(), reduction), CV_8UC3);
+  if (reduction == 1) {
+    bgr.copyTo(reduced);
+    return;
+  }
+  const cv::Rect whole({0, 0}, bgr.size());
+  for (int v = 0; v < reduced.rows; ++v) {
+    auto* row = reduced.ptr<cv::Vec3b>(v);
+    for (int u = 0; u < reduced.cols; ++u) {
+      row[u] = mean_of(bgr, cv::Rect(u * reduction, v * reduction, reduction, reduction) & whole);
+    }
+  }
+}
+
+Result<ColourLayers> ColourLayers::create(const std::string& codec, const std::string& base_codec,
+                                          UnsentFill fill) {
+  Result<std::unique_ptr<ColourEncoder>> detail = make_colour_encoder(codec);
+  if (!detail) return Error{detail.reason()};
+  Result<std::unique_ptr<ColourEncoder>> base =
+      make_colour_encoder(base_codec.empty() ? codec : base_codec);
+  if (!base) return Error{base.reason()};
+  return ColourLayers(std::move(*detail), std::move(*base), fill);
+}
+
+ColourLayers::ColourLayers(std::unique_ptr<ColourEncoder> detail,
+                           std::unique_ptr<ColourEncoder> base, UnsentFill fill)
+    : detail_codec_(std::move(detail)), base_codec_(std::move(base)), fill_(fill) {
+}
+
+void ColourLayers::prepare(const cv::Mat& bgr, const BlockMask* sent) {
+  bgr_ = bgr;
+  detail_.ready = false;
+  for (Prepared& base : bases_) base.ready = false;
+  layout_ = ColourLayout::kInPlace;
+  sent_.reset();
+  compact_.reset();
+  if (sent == nullptr) return;
+  sent_ = *sent;
+  choose_layout();
+  unsent_ = BlockMask(sent->grid());
+  for (int block = 0; block < sent->grid().count(); ++block) unsent_.set(block, !(*sent)[block]);
+}
+
+void ColourLayers::choose_layout() {
+  if (fill_ == UnsentFill::kBlack) return;
+  compact_.emplace(*sent_);
+  const int columns = compact_->used().grid().columns;
+  const int rows = compact_->used().grid().rows;
+  if (columns * rows < sent_->grid().count()) layout_ = ColourLayout::kCompact;
+}
+
+void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction) {
+  if (fill_ == UnsentFill::kSmooth) {
+    smooth_.fill_in_place(bgr, known, reduction);
+  } else {
+    black_out(bgr, known, reduction);
+  }
+}
+
+const cv::Mat& ColourLayers::detail() {
+  if (!sent_) return bgr_;
+  if (detail_.ready) return detail_.image;
+  if (layout_ == ColourLayout::kCompact) {
+    compact_->gather(bgr_, detail_.image);
+    fill(detail_.image, compact_->used(), 1);
+  } else {
+    bgr_.copyTo(detail_.image);
+    fill(detail_.image, *sent_, 1);
+  }
+  detail_.ready = true;
+  return detail_.image;
+}
+
+const cv::Mat& ColourLayers::base(int reduction, bool with_detail) {
+  Prepared& base = bases_[2 * halvings(reduction) + (with_detail ? 1 : 0)];
+  if (base.ready) return base.image;
+  reduce_image(bgr_, reduction, base.image);
+  if (with_detail && sent_) fill(base.image, unsent_, reduction);
+  base.ready = true;
+  return base.image;
+}
+
+Result<Bytes> ColourLayers::encode_detail(int quality) {
+  if (sent_ && sent_->count() == 0) return Error{"no block's colour is to be sent"};
+  return detail_codec_->encode(detail(), quality);
+}
+
+Result<Bytes> ColourLayers::encode_base(int reduction, int quality, bool with_detail) {
+  if (!is_base_reduction(reduction)) {
+    return Error{"the base is reduced " + std::to_string(reduction) + " times, must be 1, 2, 4, 8"};
+  }
+  return base_codec_->encode(base(reduction, with_detail), quality);
+}
+
+Result<Bytes> ColourLayers::encode_whole(int quality) {
+  return detail_codec_->encode(bgr_, quality);
+}
+
+}  // namespace rprr
