@@ -54,6 +54,33 @@ void reduce_image(const cv::Mat& bgr, int reduction, cv::Mat& reduced) {
   }
 }
 
+void enlarge_row(const cv::Mat& base, int reduction, int row, cv::Mat& out) {
+  const auto place = [reduction](int pixel, int count) {
+    const float at = (static_cast<float>(pixel) + 0.5f) / static_cast<float>(reduction) - 0.5f;
+    return std::clamp(at, 0.0f, static_cast<float>(count - 1));
+  };
+  const float y = place(row, base.rows);
+  const int top = static_cast<int>(y);
+  const float down = y - static_cast<float>(top);
+  const auto* upper = base.ptr<std::uint8_t>(top);
+  const auto* lower = base.ptr<std::uint8_t>(std::min(top + 1, base.rows - 1));
+  auto* to = out.ptr<std::uint8_t>();
+  for (int u = 0; u < out.cols; ++u) {
+    const float x = place(u, base.cols);
+    const int left = kChannels * static_cast<int>(x);
+    const int right = std::min(left + kChannels, kChannels * (base.cols - 1));
+    const float across = x - static_cast<float>(static_cast<int>(x));
+    for (int c = 0; c < kChannels; ++c) {
+      const auto mix = [&](const std::uint8_t* line) {
+        const auto near = static_cast<float>(line[left + c]);
+        return near + across * (static_cast<float>(line[right + c]) - near);
+      };
+      const float above = mix(upper);
+      to[kChannels * u + c] = static_cast<std::uint8_t>(above + down * (mix(lower) - above) + 0.5f);
+    }
+  }
+}
+
 Result<ColourLayers> ColourLayers::create(const std::string& codec, const std::string& base_codec,
                                           UnsentFill fill) {
   Result<std::unique_ptr<ColourEncoder>> detail = make_colour_encoder(codec);
@@ -117,7 +144,8 @@ const cv::Mat& ColourLayers::base(int reduction, bool with_detail) {
   Prepared& base = bases_[2 * halvings(reduction) + (with_detail ? 1 : 0)];
   if (base.ready) return base.image;
   reduce_image(bgr_, reduction, base.image);
-  if (with_detail && sent_) fill(base.image, unsent_, reduction);
+  // A cell of 16 pixels is four blocks: too few to be worth it.
+  if (with_detail && sent_ && reduction <= kBlockSide) fill(base.image, unsent_, reduction);
   base.ready = true;
   return base.image;
 }
@@ -129,7 +157,8 @@ Result<Bytes> ColourLayers::encode_detail(int quality) {
 
 Result<Bytes> ColourLayers::encode_base(int reduction, int quality, bool with_detail) {
   if (!is_base_reduction(reduction)) {
-    return Error{"the base is reduced " + std::to_string(reduction) + " times, must be 1, 2, 4, 8"};
+    return Error{"the base is reduced " + std::to_string(reduction) +
+                 " times, must be 1, 2, 4, 8, 16"};
   }
   return base_codec_->encode(base(reduction, with_detail), quality);
 }

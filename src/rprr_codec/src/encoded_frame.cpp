@@ -126,10 +126,12 @@ constexpr int kBaseShift = 2;
 constexpr int kLargestShift = 5;
 constexpr std::uint8_t kUnknownFlags = 0x80;
 
+constexpr float kNoiseSteps = 8.0f;  // of a grey level
+
 std::uint8_t flags_of(const EncodedFrame& frame, int largest) {
   if (!frame.sparse) return 0;
   int base = 0;
-  while (base < 4 && 1 << base <= frame.base_reduction) ++base;
+  while (base < 5 && 1 << base <= frame.base_reduction) ++base;
   return static_cast<std::uint8_t>(kSparse |
                                    (frame.colour_layout == ColourLayout::kCompact ? kCompact : 0) |
                                    base << kBaseShift | largest << kLargestShift);
@@ -145,12 +147,16 @@ bool read_flags(std::uint8_t flags, EncodedFrame& frame) {
          (frame.sparse || flags == 0);
 }
 
-// Name of the base's codec; none stands for that of the detail.
-void put_base_codec(ByteWriter& writer, const EncodedFrame& frame) {
+// Name of the base's codec, none standing for that of the detail, and its noise.
+void put_base(ByteWriter& writer, const EncodedFrame& frame) {
+  const long eighths = std::lround(kNoiseSteps * frame.base_noise);
+  writer.put(static_cast<std::uint8_t>(std::clamp(eighths, 1L, 255L)));
   put_text(writer, frame.base_codec == frame.colour_codec ? std::string() : frame.base_codec);
 }
 
-bool get_base_codec(ByteReader& reader, EncodedFrame& frame) {
+bool get_base(ByteReader& reader, EncodedFrame& frame) {
+  frame.base_noise = static_cast<float>(reader.get<std::uint8_t>()) / kNoiseSteps;
+  if (!(frame.base_noise > 0.0f)) return false;
   if (!get_text(reader, frame.base_codec)) return false;
   if (frame.base_codec.empty()) frame.base_codec = frame.colour_codec;
   return true;
@@ -217,7 +223,7 @@ Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes) {
   }
   writer.bytes()[kFlagsAt] = flags_of(frame, largest);
   put_text(writer, frame.colour_codec);
-  if (has_base) put_base_codec(writer, frame);
+  if (has_base) put_base(writer, frame);
   put_report(writer, frame.report);
   put_lengths(writer, frame, lengths);
   writer.append(mask);
@@ -246,8 +252,8 @@ Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes) {
     return Error{"encoded frame with an impossible reference or motion"};
   }
   if (!get_text(reader, frame.colour_codec)) return Error{"encoded frame names no colour codec"};
-  if (frame.base_reduction != 0 && !get_base_codec(reader, frame)) {
-    return Error{"encoded frame names no codec of its base"};
+  if (frame.base_reduction != 0 && !get_base(reader, frame)) {
+    return Error{"encoded frame names no codec or noise of its base"};
   }
   if (!get_report(reader, frame.report)) return Error{"encoded frame with an impossible report"};
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_codec/frame_codec.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <utility>
 
@@ -9,6 +11,8 @@
 
 namespace rprr {
 namespace {
+
+constexpr int kChannels = 3;
 
 using Clock = std::chrono::steady_clock;
 
@@ -37,25 +41,6 @@ std::string mismatch(const DepthFrame& depth, const cv::Mat& bgr, const EncodedF
   return {};
 }
 
-// Empty, or why a frame from elsewhere cannot be decoded.
-std::string inconsistency(const EncodedFrame& frame) {
-  if (!frame.camera.valid()) return "camera is not valid";
-  const BlockGrid& grid = frame.mask.grid();
-  if (frame.sparse && (grid.width != frame.camera.width || grid.height != frame.camera.height)) {
-    return "block mask is not of the camera's size";
-  }
-  if (frame.sparse && !is_subset(frame.depth_blocks(), frame.mask)) {
-    return "blocks with depth are not among the blocks sent";
-  }
-  if (frame.base_reduction != 0 && !(frame.sparse && is_base_reduction(frame.base_reduction))) {
-    return "frame with an impossible base";
-  }
-  if (!frame.sparse && frame.colour_layout != ColourLayout::kInPlace) {
-    return "whole frame in the layout of a sparse one";
-  }
-  return {};
-}
-
 // Empty, or why settings of layers do not exist.
 std::string impossible(const LayerSettings& settings, const ColourLayers& layers) {
   const auto check = [](const ColourCodecInfo& info, int quality) {
@@ -68,10 +53,17 @@ std::string impossible(const LayerSettings& settings, const ColourLayers& layers
   if (settings.base_reduction == 0) return check(layers.info(), settings.detail_quality);
   if (!is_base_reduction(settings.base_reduction)) {
     return "the base is reduced " + std::to_string(settings.base_reduction) +
-           " times, must be 0 (no base), 1, 2, 4 or 8";
+           " times, must be 0 (no base), 1, 2, 4, 8 or 16";
   }
   const std::string wrong = check(layers.base_info(), settings.base_quality);
   return wrong.empty() && settings.detail ? check(layers.info(), settings.detail_quality) : wrong;
+}
+
+LayerLadder ladder_of(const FrameCodecOptions& options, const ColourLayers& layers,
+                      bool few_blocks) {
+  return LayerLadder(
+      options.objective, few_blocks, layers.info(), layers.base_info(),
+      options.objective == Objective::kView ? options.view_quality : options.colour_quality);
 }
 
 }  // namespace
@@ -89,7 +81,10 @@ Result<FrameEncoder> FrameEncoder::create(const FrameCodecOptions& options) {
 FrameEncoder::FrameEncoder(FrameCodecOptions options, ColourLayers layers)
     : options_(std::move(options)),
       layers_(std::move(layers)),
-      depth_(std::make_unique<DhcmEncoder>()) {
+      ladders_{ladder_of(options_, layers_, false), ladder_of(options_, layers_, true)},
+      last_rung_(ladders_[0].usual()),
+      depth_(std::make_unique<DhcmEncoder>()),
+      own_decoder_(make_local_colour_decoder()) {
 }
 
 LayerSettings FrameEncoder::settings() const {
@@ -98,7 +93,15 @@ LayerSettings FrameEncoder::settings() const {
 
 Result<bool> FrameEncoder::encode(const DepthFrame& depth, const cv::Mat& bgr,
                                   EncodedFrame& frame) {
-  return encode(depth, bgr, frame, settings());
+  if (!frame.sparse || options_.objective == Objective::kFixed) {
+    return encode(depth, bgr, frame, settings());
+  }
+  Result<bool> done = prepare(depth, bgr, frame);
+  if (done) done = plan(frame);
+  if (done && options_.measure_independent) {
+    done = measure_independent(depth, options_.colour_quality, frame);
+  }
+  return done;
 }
 
 Result<bool> FrameEncoder::encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame,
@@ -146,8 +149,44 @@ Result<bool> FrameEncoder::encode_colour(EncodedFrame& frame, const LayerSetting
   frame.base_codec = has_base ? layers_.base_codec() : std::string();
   frame.base = std::move(*base);
   frame.base_reduction = has_base ? settings.base_reduction : 0;
+  if (has_base) {
+    const Result<float> noise = noise_of_base(frame, has_detail);
+    if (!noise) return Error{noise.reason()};
+    frame.base_noise = *noise;
+  }
   frame.report.ms_encode += milliseconds_since(start);
   return true;
+}
+
+// RMS error of the base as the station will decode it, where no detail stands for it.
+Result<float> FrameEncoder::noise_of_base(const EncodedFrame& frame, bool with_detail) {
+  const cv::Mat& sent = layers_.base(frame.base_reduction, with_detail);
+  const Result<cv::Mat> decoded = own_decoder_.decode_base(frame);
+  if (!decoded) return Error{decoded.reason()};
+  const BlockGrid& grid = frame.mask.grid();
+  std::uint64_t sum = 0;
+  std::uint64_t count = 0;
+  for (int v = 0; v < sent.rows; ++v) {
+    const auto* p = sent.ptr<std::uint8_t>(v);
+    const auto* q = decoded->ptr<std::uint8_t>(v);
+    const int row = v * frame.base_reduction / kBlockSide;
+    for (int column = 0; column < grid.columns; ++column) {
+      if (with_detail && frame.mask[grid.index(column, row)]) continue;
+      const auto from = [&](int c) {
+        const int u = (c * kBlockSide + frame.base_reduction - 1) / frame.base_reduction;
+        return kChannels * std::min(u, sent.cols);
+      };
+      const int end = from(column + 1);
+      for (int i = from(column); i < end; ++i) {
+        const int difference = p[i] - q[i];
+        sum += static_cast<std::uint64_t>(difference * difference);
+      }
+      count += static_cast<std::uint64_t>(end - from(column));
+    }
+  }
+  return count == 0
+             ? 1.0f
+             : static_cast<float>(std::sqrt(static_cast<double>(sum) / static_cast<double>(count)));
 }
 
 Result<bool> FrameEncoder::measure_independent(const DepthFrame& depth, int quality,
@@ -162,69 +201,6 @@ Result<bool> FrameEncoder::measure_independent(const DepthFrame& depth, int qual
   }
   frame.report.independent_bytes_depth = static_cast<std::uint32_t>(depth_bytes);
   frame.report.independent_bytes_colour = static_cast<std::uint32_t>(colour_bytes);
-  return true;
-}
-
-FrameDecoder::FrameDecoder(std::unique_ptr<ColourDecoder> colour)
-    : colour_(std::move(colour)), depth_(std::make_unique<DhcmDecoder>()) {
-}
-
-Result<DecodedFrame> FrameDecoder::decode(const EncodedFrame& frame) {
-  const std::string wrong = inconsistency(frame);
-  if (!wrong.empty()) return Error{wrong};
-  DecodedFrame decoded;
-  Result<bool> done = decode_depth(frame, decoded);
-  if (done) done = decode_detail(frame, decoded);
-  if (done) done = decode_base(frame, decoded);
-  if (!done) return Error{done.reason()};
-  return decoded;
-}
-
-Result<bool> FrameDecoder::decode_depth(const EncodedFrame& frame, DecodedFrame& decoded) {
-  const cv::Size size(frame.camera.width, frame.camera.height);
-  if (frame.sparse && frame.mask.count() == 0) {
-    if (!frame.depth.empty()) return Error{"frame without blocks has depth"};
-    decoded.depth = {cv::Mat::zeros(size, CV_16UC1), DepthFrame{}.unit};
-    return true;
-  }
-  Result<DepthFrame> depth = frame.sparse ? depth_->decode(frame.depth, frame.depth_blocks())
-                                          : depth_->decode(frame.depth, size);
-  if (!depth) return Error{depth.reason()};
-  decoded.depth = std::move(*depth);
-  return true;
-}
-
-Result<bool> FrameDecoder::decode_detail(const EncodedFrame& frame, DecodedFrame& decoded) {
-  const cv::Size size(frame.camera.width, frame.camera.height);
-  const bool no_block = frame.sparse && frame.mask.count() == 0;
-  if (no_block && !frame.colour.empty()) return Error{"frame without blocks has colour"};
-  decoded.has_detail = !no_block && !(frame.base_reduction != 0 && frame.colour.empty());
-  if (!decoded.has_detail) {
-    decoded.bgr = cv::Mat::zeros(size, CV_8UC3);
-    return true;
-  }
-  if (frame.colour_layout == ColourLayout::kCompact) {
-    const CompactLayout layout(frame.mask);
-    const Result<cv::Mat> compact =
-        colour_->decode(frame.colour_codec, frame.colour, layout.size());
-    if (!compact) return Error{compact.reason()};
-    decoded.bgr = cv::Mat::zeros(size, CV_8UC3);
-    layout.scatter(*compact, decoded.bgr);
-    return true;
-  }
-  Result<cv::Mat> bgr = colour_->decode(frame.colour_codec, frame.colour, size);
-  if (!bgr) return Error{bgr.reason()};
-  decoded.bgr = std::move(*bgr);
-  if (frame.sparse) black_out(decoded.bgr, frame.mask);
-  return true;
-}
-
-Result<bool> FrameDecoder::decode_base(const EncodedFrame& frame, DecodedFrame& decoded) {
-  if (frame.base_reduction == 0) return true;
-  const cv::Size size = base_size({frame.camera.width, frame.camera.height}, frame.base_reduction);
-  Result<cv::Mat> base = colour_->decode(frame.base_codec, frame.base, size);
-  if (!base) return Error{"base: " + base.reason()};
-  decoded.base = std::move(*base);
   return true;
 }
 

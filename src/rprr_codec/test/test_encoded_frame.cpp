@@ -77,7 +77,7 @@ TEST(EncodedFrame, EveryRotationComesBack) {
 }
 
 TEST(EncodedFrame, BaseComesBack) {
-  for (const int reduction : {1, 2, 4, 8}) {
+  for (const int reduction : {1, 2, 4, 8, 16}) {
     for (const std::string codec : {"webp", "pgf"}) {
       for (const bool detail : {true, false}) {
         EncodedFrame frame = with_base(codec, reduction);

@@ -138,7 +138,7 @@ TEST_F(FrameCodec, DetailOfEveryCodecComesBackInEitherLayout) {
 TEST_F(FrameCodec, BaseOfEveryReductionComesBack) {
   const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
   FrameCodecOptions options;
-  for (const int reduction : {1, 2, 4, 8}) {
+  for (const int reduction : {1, 2, 4, 8, 16}) {
     cv::Mat expected;
     reduce_image(bgr_, reduction, expected);
     ASSERT_EQ(expected.size(), base_size(bgr_.size(), reduction));

@@ -71,14 +71,32 @@ std::string choose(const YAML::Node& file, const char* key, const char* first, T
   return {};
 }
 
+std::string read_objective(const YAML::Node& file, Objective& objective) {
+  if (!file["objective"]) return {};
+  std::string word;
+  read(file, "objective", word);
+  const std::optional<Objective> found = objective_of(word);
+  if (!found) return "objective: '" + word + "' is none of fixed, map, view";
+  objective = *found;
+  return {};
+}
+
 std::string read_rest(const YAML::Node& file, Profile& profile) {
   read(file, "validation_min_pixels", profile.validation.min_pixels);
   read(file, "colour_codec", profile.codec.colour_codec);
   read(file, "colour_quality", profile.codec.colour_quality);
+  read(file, "view_quality", profile.codec.view_quality);
+  read(file, "base_codec", profile.codec.base_codec);
+  read(file, "base_reduction", profile.codec.base_reduction);
+  read(file, "base_quality", profile.codec.base_quality);
+  read(file, "byte_budget", profile.codec.byte_budget);
+  read(file, "target_psnr", profile.codec.target_psnr);
   read(file, "edge_margin", profile.station.stitch.edge_margin);
   read(file, "align", profile.station.synthesis.align);
   std::string wrong =
       choose(file, "protocol", "preview", true, "samples", false, profile.use_previews);
+  if (!wrong.empty()) return wrong;
+  wrong = read_objective(file, profile.codec.objective);
   if (!wrong.empty()) return wrong;
   wrong = choose(file, "unsent_fill", "black", UnsentFill::kBlack, "smooth", UnsentFill::kSmooth,
                  profile.codec.fill);

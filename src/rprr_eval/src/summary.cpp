@@ -85,7 +85,8 @@ std::string summary_table(const std::vector<PairResult>& results, const Profile&
   add("bytes: pose exchange", "%.0f", [](const PairResult& r) { return double(r.exchange.bytes); });
   add("bytes: masks", "%.0f", [](const PairResult& r) { return double(r.rebuilt.bytes_masks); });
   add("bytes: depth", "%.0f", [](const PairResult& r) { return double(r.rebuilt.sizes.depth); });
-  add("bytes: colour", "%.0f", [](const PairResult& r) { return double(r.rebuilt.sizes.colour); });
+  add("bytes: colour", "%.0f",
+      [](const PairResult& r) { return double(r.rebuilt.sizes.colour + r.rebuilt.sizes.base); });
   add("bytes: total", "%.0f", [](const PairResult& r) { return double(r.rebuilt.bytes_total); });
   add("bytes: independent", "%.0f",
       [](const PairResult& r) { return double(r.independent.total); });

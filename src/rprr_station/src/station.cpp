@@ -29,6 +29,12 @@ int blocks_without_depth(const DepthFrame& depth, const BlockGrid& grid, const B
   return count;
 }
 
+void forget_blocks(const BlockMask& blocks, cv::Mat& provenance) {
+  for (int block = 0; block < blocks.grid().count(); ++block) {
+    if (blocks[block]) provenance(blocks.grid().rect(block)).setTo(kNothing);
+  }
+}
+
 // The sender's own figures are for display: nonsense becomes 0.
 FrameReport cleaned(FrameReport report) {
   for (float* ms : {&report.ms_pose, &report.ms_predict, &report.ms_validate, &report.ms_encode}) {
@@ -140,7 +146,7 @@ void Station::account(const ReceivedMessage& message, const EncodedFrame& encode
   const std::size_t own = encoded_message_bytes(message.frame_id.size(), message.data.size);
   const EncodedSizes& sizes = frame.sizes;
   frame.bytes_masks = sizes.mask + encoded.report.bytes_masks;
-  frame.bytes_extras = own - std::min(own, sizes.mask + sizes.depth + sizes.colour);
+  frame.bytes_extras = own - std::min(own, sizes.mask + sizes.depth + sizes.colour + sizes.base);
   frame.bytes_total = own + encoded.report.bytes_pose + encoded.report.bytes_masks;
 
   const FrameReport& report = frame.report;
@@ -192,10 +198,18 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
     return;
   }
   const Stopwatch rebuilding;
+  const BaseImage base{decoded->base, encoded.base_reduction, encoded.base_noise};
+  const bool has_base = base.fits({encoded.camera.width, encoded.camera.height});
   synthesizer_.synthesize(reference.depth, reference.bgr, reference.camera, encoded.camera,
-                          encoded.motion, predicted_);
-  Result<StitchedView> view = stitcher_.stitch(predicted_, decoded->bgr, decoded->depth,
-                                               encoded.mask, encoded.depth_blocks());
+                          encoded.motion, predicted_, has_base ? &base : nullptr);
+  if (has_base) {
+    // The base is not right where there is detail, and need not be.
+    if (decoded->has_detail) forget_blocks(encoded.mask, predicted_.provenance);
+    fusion_.fuse(base, predicted_);
+  }
+  Result<StitchedView> view =
+      stitcher_.stitch(predicted_, decoded->has_detail ? decoded->bgr : cv::Mat(), decoded->depth,
+                       encoded.mask, encoded.depth_blocks());
   frame.ms_reconstruct = rebuilding.milliseconds();
   if (!view) {
     output.errors.push_back({frame.robot, frame.stamp, view.reason()});
@@ -206,6 +220,7 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
   frame.provenance = view->provenance;
   frame.share_received = view->share_received;
   frame.share_predicted = view->share_predicted;
+  frame.share_base = view->share_base;
   frame.blocks_sent_without_depth =
       blocks_without_depth(decoded->depth, encoded.mask.grid(), encoded.mask);
   output.frames.push_back(std::move(frame));

@@ -72,7 +72,7 @@ rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
   statistics.bytes_pose = frame.report.bytes_pose;
   statistics.bytes_masks = u32(frame.bytes_masks);
   statistics.bytes_depth = u32(frame.sizes.depth);
-  statistics.bytes_colour = u32(frame.sizes.colour);
+  statistics.bytes_colour = u32(frame.sizes.colour + frame.sizes.base);
   statistics.bytes_extras = u32(frame.bytes_extras);
   statistics.bytes_total = u32(frame.bytes_total);
   statistics.independent_bytes_depth = frame.report.independent_bytes_depth;

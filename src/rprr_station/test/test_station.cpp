@@ -143,7 +143,7 @@ TEST_F(StationTest, EveryByteIsCountedOnce) {
   const RebuiltFrame frame = receive("b", 200, bytes).frames.at(0);
   EXPECT_EQ(frame.bytes_total, encoded_message_bytes(7, bytes.size()) + 4000 + 150);
   EXPECT_EQ(frame.bytes_total, frame.report.bytes_pose + frame.bytes_masks + frame.sizes.depth +
-                                   frame.sizes.colour + frame.bytes_extras);
+                                   frame.sizes.colour + frame.sizes.base + frame.bytes_extras);
   EXPECT_EQ(frame.bytes_masks, frame.sizes.mask + 150);
 }
 

@@ -21,6 +21,9 @@ cv::Size base_size(cv::Size image, int reduction);
 /// The base itself: means of cells of reduction x reduction pixels, fewer at the rim. CV_8UC3.
 void reduce_image(const cv::Mat& bgr, int reduction, cv::Mat& reduced);
 
+/// A row of the image that a base stands for, bilinearly. out: CV_8UC3, one row of its width.
+void enlarge_row(const cv::Mat& base, int reduction, int row, cv::Mat& out);
+
 /// The colour of one frame, prepared once and then encoded at as many settings as one likes: a rate
 /// planner tries several. One object serves one thread and keeps its buffers between frames.
 class ColourLayers {
@@ -39,12 +42,16 @@ class ColourLayers {
   /// The base. with_detail: the detail is sent too, so blocks that are in it need not be right here
   /// and are filled from the others. Errors as above, a reduction that is none.
   Result<Bytes> encode_base(int reduction, int quality, bool with_detail);
+  /// What encode_base encodes.
+  const cv::Mat& base(int reduction, bool with_detail);
   /// The whole image, whatever is sent of it.
   Result<Bytes> encode_whole(int quality);
 
   /// Of the detail: compact where that makes the image smaller, never with black fill (the
   /// paper's).
   ColourLayout layout() const { return layout_; }
+  /// The frame's own.
+  const cv::Mat& image() const { return bgr_; }
   std::string codec() const { return detail_codec_->name(); }
   std::string base_codec() const { return base_codec_->name(); }
   ColourCodecInfo info() const { return *colour_codec_info(codec()); }
@@ -56,7 +63,6 @@ class ColourLayers {
   void choose_layout();
   void fill(cv::Mat& bgr, const BlockMask& known, int reduction);
   const cv::Mat& detail();
-  const cv::Mat& base(int reduction, bool with_detail);
 
   std::unique_ptr<ColourEncoder> detail_codec_;
   std::unique_ptr<ColourEncoder> base_codec_;
@@ -74,7 +80,7 @@ class ColourLayers {
     cv::Mat image;
   };
   Prepared detail_;
-  std::array<Prepared, 8> bases_;  // by reduction, without and with detail
+  std::array<Prepared, 10> bases_;  // by reduction, without and with detail
 };
 
 }  // namespace rprr

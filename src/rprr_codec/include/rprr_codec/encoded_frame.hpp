@@ -36,7 +36,7 @@ enum class ColourLayout : std::uint8_t {
 /// The base of a sparse frame is its whole colour image, coarser: ceil(width / reduction) by
 /// ceil(height / reduction) pixels, each the mean of its cell.
 constexpr bool is_base_reduction(int reduction) {
-  return reduction == 1 || reduction == 2 || reduction == 4 || reduction == 8;
+  return reduction == 1 || reduction == 2 || reduction == 4 || reduction == 8 || reduction == 16;
 }
 
 /// One RGB-D frame as it crosses the radio: whole, or the blocks that the station cannot derive
@@ -57,7 +57,10 @@ struct EncodedFrame {
   ColourLayout colour_layout = ColourLayout::kInPlace;  // kCompact: sparse only
   std::string base_codec;                               // name for ColourDecoder
   Bytes base;              // sparse only; meaningful where there is no detail
-  int base_reduction = 0;  // 0: no base; 1, 2, 4, 8
+  int base_reduction = 0;  // 0: no base; 1, 2, 4, 8, 16
+  /// RMS of the base's coding error, grey levels, as its sender measured it: in eighths on the
+  /// wire, at most 31.9. What the station needs to weigh the base against its prediction.
+  float base_noise = 8.0f;
   FrameReport report;
 
   /// sparse: the blocks whose depth is sent, a subset of mask.

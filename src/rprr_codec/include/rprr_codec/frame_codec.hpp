@@ -1,32 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/colour_layers.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
+#include "rprr_codec/layer_ladder.hpp"
 
 namespace rprr {
 
+struct DecodedFrame {
+  DepthFrame depth;  // sparse: 0 outside of depth_blocks()
+  cv::Mat bgr;       // CV_8UC3, detail; sparse: black outside of the mask's blocks
+  cv::Mat base;  // CV_8UC3 of base_size(), coarse; empty if there is none. Where there is detail
+                 // only a continuation of the rest
+  bool has_detail = true;  // false: bgr is black
+};
+
+/// Untrusted frame to images.
+class FrameDecoder {
+ public:
+  explicit FrameDecoder(std::unique_ptr<ColourDecoder> colour);
+  Result<DecodedFrame> decode(const EncodedFrame& frame);
+  /// Detail and base without the depth.
+  Result<DecodedFrame> decode_colours(const EncodedFrame& frame);
+  /// The base alone; an error where there is none.
+  Result<cv::Mat> decode_base(const EncodedFrame& frame);
+
+ private:
+  Result<bool> decode_depth(const EncodedFrame& frame, DecodedFrame& decoded);
+  Result<bool> decode_layers(const EncodedFrame& frame, DecodedFrame& decoded);
+  Result<bool> decode_detail(const EncodedFrame& frame, DecodedFrame& decoded);
+
+  std::unique_ptr<ColourDecoder> colour_;
+  std::unique_ptr<DhcmDecoder> depth_;
+};
+
 struct FrameCodecOptions {
   std::string colour_codec = "pgf";
-  int colour_quality = 6;  // the codec's own scale
+  int colour_quality = 6;  // the codec's own scale: of whole frames and of detail
+  /// Objective kView: the picture is about as good as a whole image of this quality (the codec's
+  /// own scale). Below colour_quality, since whole frames are references: what is lost in them is
+  /// lost in every view predicted from them.
+  int view_quality = 8;
+  /// How a sparse frame's layers are chosen; kFixed: as base_reduction and base_quality say.
+  Objective objective = Objective::kFixed;
+  /// Objectives kMap and kView: the finest layers with which the encoded frame, depth and all, is
+  /// not longer (bytes); the coarsest if none is short enough. 0: no limit, the layers that go with
+  /// colour_quality.
+  std::size_t byte_budget = 0;
+  /// Objectives kMap and kView: the coarsest layers with which what is sent, detail where there is
+  /// some and the base elsewhere, comes so near to the colour image (dB). 0: not asked for. A
+  /// budget goes first.
+  double target_psnr = 0.0;
   std::string base_codec;  // empty: colour_codec
-  int base_reduction = 0;  // of sparse frames; 0: no base; 1, 2, 4, 8
+  int base_reduction = 0;  // of sparse frames; 0: no base; 1, 2, 4, 8, 16
   int base_quality = 12;   // the codec's own scale
   UnsentFill fill = UnsentFill::kSmooth;
   bool measure_independent =
       false;  // also encode the whole frame, to report what it would have cost
-};
-
-/// How the colour of one frame is sent. Of a whole frame only detail_quality counts.
-struct LayerSettings {
-  int base_reduction = 0;  // 0: no base; 1, 2, 4, 8
-  int base_quality = 0;    // the codec's own scale
-  int detail_quality = 0;  // the codec's own scale
-  bool detail = true;      // false: the base alone
 };
 
 /// Depth and colour of one frame to payloads: one way in for the encoder nodelet and rprr_eval.
@@ -43,7 +78,8 @@ class FrameEncoder {
   /// that failed.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame,
                       const LayerSettings& settings);
-  /// With the options' settings.
+  /// With the settings that the options ask for. Where no detail is sent, the blocks without depth
+  /// leave frame.mask.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame);
 
   /// encode in steps, for whoever tries several settings: depth and preparations once, then colours
@@ -52,39 +88,24 @@ class FrameEncoder {
   Result<bool> encode_colour(EncodedFrame& frame, const LayerSettings& settings);
   ColourLayers& layers() { return layers_; }
 
-  /// Those of the options.
+  /// Those of the options with objective kFixed; of whole frames.
   LayerSettings settings() const;
 
  private:
   FrameEncoder(FrameCodecOptions options, ColourLayers layers);
   Result<bool> measure_independent(const DepthFrame& depth, int quality, EncodedFrame& frame);
+  Result<bool> plan(EncodedFrame& frame);
+  Result<bool> try_settings(const LayerSettings& settings, EncodedFrame& frame);
+  bool good_enough(const EncodedFrame& frame);
+  Result<double> sent_psnr(const EncodedFrame& frame);
+  Result<float> noise_of_base(const EncodedFrame& frame, bool with_detail);
 
   FrameCodecOptions options_;
   ColourLayers layers_;
+  std::array<LayerLadder, 2> ladders_;  // for many blocks, for few
+  int last_rung_;                       // where the search for the next frame's begins
   std::unique_ptr<DhcmEncoder> depth_;
-};
-
-struct DecodedFrame {
-  DepthFrame depth;  // sparse: 0 outside of depth_blocks()
-  cv::Mat bgr;       // CV_8UC3, detail; sparse: black outside of the mask's blocks
-  cv::Mat base;  // CV_8UC3 of base_size(), coarse; empty if there is none. Where there is detail
-                 // only a continuation of the rest
-  bool has_detail = true;  // false: bgr is black
-};
-
-/// Untrusted frame to images.
-class FrameDecoder {
- public:
-  explicit FrameDecoder(std::unique_ptr<ColourDecoder> colour);
-  Result<DecodedFrame> decode(const EncodedFrame& frame);
-
- private:
-  Result<bool> decode_depth(const EncodedFrame& frame, DecodedFrame& decoded);
-  Result<bool> decode_detail(const EncodedFrame& frame, DecodedFrame& decoded);
-  Result<bool> decode_base(const EncodedFrame& frame, DecodedFrame& decoded);
-
-  std::unique_ptr<ColourDecoder> colour_;
-  std::unique_ptr<DhcmDecoder> depth_;
+  FrameDecoder own_decoder_;  // of payloads of our own making, in this process
 };
 
 }  // namespace rprr

@@ -17,6 +17,7 @@
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_geometry/wire.hpp"
+#include "rprr_station/base_fusion.hpp"
 #include "rprr_station/energy.hpp"
 #include "rprr_station/stitch.hpp"
 #include "rprr_station/view_synthesis.hpp"
@@ -74,6 +75,7 @@ struct RebuiltFrame {
   double ms_reconstruct = 0.0;
   double share_received = 1.0;  // of all pixels
   double share_predicted = 0.0;
+  double share_base = 0.0;  // neither: the sender's own, at low quality
   double energy_mj = 0.0;
   double energy_independent_mj = 0.0;  // 0: the sender did not measure it
 };
@@ -149,6 +151,7 @@ class Station {
   StationOptions options_;
   FrameDecoder decoder_;
   ViewSynthesizer synthesizer_;
+  BaseFusion fusion_;
   Stitcher stitcher_;
   PredictedView predicted_;
   std::map<std::string, Robot> robots_;
