@@ -54,7 +54,7 @@ class ColourLayers {
   ColourLayers(std::unique_ptr<ColourEncoder> detail, std::unique_ptr<ColourEncoder> base,
                UnsentFill fill);
   void choose_layout();
-  void fill(cv::Mat& bgr, const BlockMask& known, int reduction);
+  void fill(cv::Mat& bgr, const BlockMask& known, int reduction, bool flat);
   const cv::Mat& detail();
   const cv::Mat& base(int reduction, bool with_detail);
 
