@@ -47,6 +47,9 @@ class EncoderNodelet : public nodelet::Nodelet {
     FrameCodecOptions options;
     options.colour_codec = private_nh.param("colour_codec", options.colour_codec);
     options.colour_quality = private_nh.param("colour_quality", options.colour_quality);
+    options.base_codec = private_nh.param("base_codec", options.base_codec);
+    options.base_reduction = private_nh.param("base_reduction", options.base_reduction);
+    options.base_quality = private_nh.param("base_quality", options.base_quality);
     options.measure_independent =
         private_nh.param("measure_independent", options.measure_independent);
     const auto fill = private_nh.param<std::string>("unsent_fill", "smooth");
@@ -58,7 +61,8 @@ class EncoderNodelet : public nodelet::Nodelet {
       problem = "~depth_unit must be above 0 (metres per count)";
     }
     Result<FrameEncoder> encoder = FrameEncoder::create(options);
-    if (!encoder) problem = "~colour_codec or ~colour_quality: " + encoder.reason();
+    if (!encoder)
+      problem = "~colour_codec, ~base_codec or what belongs to them: " + encoder.reason();
     if (!problem.empty()) {
       NODELET_FATAL_STREAM(problem << "; nothing is encoded until this is mended and restarted");
       health_->error("parameters", problem);
@@ -102,6 +106,7 @@ class EncoderNodelet : public nodelet::Nodelet {
     health_->show("last frame, bytes", std::to_string(sizes.total));
     health_->show("last frame, bytes of depth", std::to_string(sizes.depth));
     health_->show("last frame, bytes of colour", std::to_string(sizes.colour));
+    health_->show("last frame, bytes of the base", std::to_string(sizes.base));
     health_->show("last frame, milliseconds", std::to_string(frame.report.ms_encode));
   }
 
