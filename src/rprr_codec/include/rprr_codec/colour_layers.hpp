@@ -38,7 +38,7 @@ class ColourLayers {
   Result<Bytes> encode_detail(int quality);
   /// The base. with_detail: the detail is sent too, so blocks that are in it need not be right here
   /// and are filled from the others. Errors as above, a reduction that is none.
-  Result<Bytes> encode_base(int reduction, int quality, bool with_detail);
+  Result<Bytes> encode_base(int reduction, int quality, bool with_detail = true);
   /// The whole image, whatever is sent of it.
   Result<Bytes> encode_whole(int quality);
 
