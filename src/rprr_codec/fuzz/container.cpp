@@ -2,6 +2,7 @@
 // Any bytes as an encoded frame, as they are and with the checksum made good, and the depth inside.
 // Colour payloads are left to the worker process that is there for them.
 #include "fuzz.hpp"
+#include "rprr_codec/compact_layout.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 
@@ -19,6 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(frame->base_reduction == 0 ? frame->base.empty()
                                              : frame->sparse && !frame->base.empty());
     if (frame->sparse) {
+      const cv::Size compact = CompactLayout(frame->mask).size();
+      fuzz::require(compact.area() <= frame->mask.grid().count() * kBlockSide * kBlockSide);
       decoder.decode(frame->depth, frame->depth_blocks());
     } else {
       decoder.decode(frame->depth, cv::Size(frame->camera.width, frame->camera.height));

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "../test/synthetic.hpp"
+#include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 #include "rprr_geometry/block_mask_pair.hpp"
@@ -108,6 +109,14 @@ void containers(const fs::path& root) {
   folder.add(without_seal(serialise(frame)));
 }
 
+void colours(const fs::path& root) {
+  Folder folder(root / "colour");
+  const cv::Mat bgr = synthetic::colourful(72, 48);
+  for (const std::string& codec : colour_codecs()) {
+    folder.add(without_seal(*(*make_colour_encoder(codec))->encode(bgr, 10)));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -119,5 +128,6 @@ int main(int argc, char** argv) {
   masks(argv[1]);
   previews(argv[1]);
   containers(argv[1]);
+  colours(argv[1]);
   return 0;
 }

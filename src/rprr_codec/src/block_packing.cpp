@@ -140,7 +140,7 @@ BlockPacking packed(const BlockMask& mask) {
   };
   const bool is_image =
       std::max(shelves.size.width, shelves.size.height) <= kMaxImageSide / kBlockSide;
-  return is_image && 2 * area(shelves) <= area(lines) ? std::move(shelves) : std::move(lines);
+  return is_image && 5 * area(shelves) <= 4 * area(lines) ? std::move(shelves) : std::move(lines);
 }
 
 }  // namespace rprr

@@ -23,8 +23,8 @@ BlockPacking without_empty_lines(const BlockMask& mask);
 /// the image codecs' squares of 16x16 pixels stay what they were.
 BlockPacking on_shelves(const BlockMask& mask);
 
-/// On shelves where that takes at most half the space, else without empty lines: seams between
-/// regions cost bytes too (measured with rprr_codec_colour_benchmark).
+/// On shelves where that takes at most four fifths of the space, else without empty lines: seams
+/// between regions cost bytes too.
 BlockPacking packed(const BlockMask& mask);
 
 }  // namespace rprr

@@ -118,9 +118,9 @@ void ColourLayers::choose_layout() {
   if (columns * rows < sent_->grid().count()) layout_ = ColourLayout::kCompact;
 }
 
-void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction) {
+void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction, bool flat) {
   if (fill_ == UnsentFill::kSmooth) {
-    smooth_.fill_in_place(bgr, known, reduction);
+    smooth_.fill_in_place(bgr, known, reduction, flat);
   } else {
     black_out(bgr, known, reduction);
   }
@@ -129,12 +129,13 @@ void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction) {
 const cv::Mat& ColourLayers::detail() {
   if (!sent_) return bgr_;
   if (detail_.ready) return detail_.image;
+  const bool flat = detail_codec_->prefers_flat_blocks();
   if (layout_ == ColourLayout::kCompact) {
     compact_->gather(bgr_, detail_.image);
-    fill(detail_.image, compact_->used(), 1);
+    fill(detail_.image, compact_->used(), 1, flat);
   } else {
     bgr_.copyTo(detail_.image);
-    fill(detail_.image, *sent_, 1);
+    fill(detail_.image, *sent_, 1, flat);
   }
   detail_.ready = true;
   return detail_.image;
@@ -144,8 +145,11 @@ const cv::Mat& ColourLayers::base(int reduction, bool with_detail) {
   Prepared& base = bases_[2 * halvings(reduction) + (with_detail ? 1 : 0)];
   if (base.ready) return base.image;
   reduce_image(bgr_, reduction, base.image);
-  // A cell of 16 pixels is four blocks: too few to be worth it.
-  if (with_detail && sent_ && reduction <= kBlockSide) fill(base.image, unsent_, reduction);
+  if (with_detail && sent_ && reduction <= kBlockSide) {
+    // Blocks of a reduced image are smaller than the codec's. A cell of 16 pixels is four blocks:
+    // too few to be worth it.
+    fill(base.image, unsent_, reduction, reduction == 1 && base_codec_->prefers_flat_blocks());
+  }
   base.ready = true;
   return base.image;
 }

@@ -228,14 +228,12 @@ void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
   FloatLevel level;
   level.columns = blocks.cols;
   level.rows = blocks.rows;
-  const auto cells = static_cast<std::size_t>(blocks.cols) * blocks.rows;
-  level.weight.resize(cells);
-  level.colour.resize(cells * kChannels);
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    level.weight[cell] = sent[static_cast<int>(cell)] ? 1.0f : 0.0f;
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      level.colour[cell * kChannels + c] = blocks.data[cell * kChannels + c];
-    }
+  for (int v = 0; v < blocks.rows; ++v) {
+    const auto* row = blocks.ptr<std::uint8_t>(v);
+    level.colour.insert(level.colour.end(), row, row + kChannels * blocks.cols);
+  }
+  for (int block = 0; block < sent.grid().count(); ++block) {
+    level.weight.push_back(sent[block] ? 1.0f : 0.0f);
   }
   push_pull(level);
   BlockField field(blocks.cols, blocks.rows);
@@ -259,9 +257,22 @@ void fill_blocks(cv::Mat& blocks, const BlockMask& sent) {
   }
 }
 
+// Each unsent block in the one colour that the block level has for it.
+void paint(const cv::Mat& blocks, cv::Mat& bgr, int side, const BlockMask& sent) {
+  const cv::Rect whole({0, 0}, bgr.size());
+  for (int v = 0, block = 0; v < blocks.rows; ++v) {
+    for (int u = 0; u < blocks.cols; ++u, ++block) {
+      if (sent[block]) continue;
+      const auto colour = blocks.at<cv::Vec3b>(v, u);
+      bgr(cv::Rect(u * side, v * side, side, side) & whole) =
+          cv::Scalar(colour[0], colour[1], colour[2]);
+    }
+  }
+}
+
 }  // namespace
 
-void SmoothFill::fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction) {
+void SmoothFill::fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction, bool flat) {
   const int count = known.count();
   if (count == 0) bgr.setTo(cv::Scalar::all(0));
   if (count == 0 || count == known.grid().count()) return;
@@ -272,7 +283,8 @@ void SmoothFill::fill_in_place(cv::Mat& bgr, const BlockMask& known, int reducti
     reduce(levels_[k], levels_[k + 1]);
   }
   fill_blocks(levels_[kBlockLevel], known);
-  for (int k = kBlockLevel - 1; k >= finest; --k) {
+  if (flat) paint(levels_[kBlockLevel], bgr, kBlockSide / reduction, known);
+  for (int k = kBlockLevel - 1; k >= finest && !flat; --k) {
     cv::Mat& level = levels_[static_cast<std::size_t>(k)];
     enlarge(levels_[static_cast<std::size_t>(k) + 1], level, k, known, blend_);
     for (int sweep = 0; sweep < kPixelSweeps; ++sweep) relax(level, k, known, scratch_);

@@ -84,6 +84,8 @@ Result<bool> FrameDecoder::decode_detail(const EncodedFrame& frame, DecodedFrame
     decoded.bgr = cv::Mat::zeros(size, CV_8UC3);
     return true;
   }
+  const Result<int> coarse = colour_payload_coarse(frame.colour_codec, frame.colour);
+  decoded.coarse = coarse ? *coarse : 0;  // what is damaged fails below
   if (frame.colour_layout == ColourLayout::kCompact) {
     const CompactLayout layout(frame.mask);
     const Result<cv::Mat> compact =

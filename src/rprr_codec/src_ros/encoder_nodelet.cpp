@@ -9,6 +9,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "codec_options.hpp"
 #include "outgoing_conversion.hpp"
 #include "rprr_codec/frame_codec.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
@@ -44,21 +45,11 @@ class EncoderNodelet : public nodelet::Nodelet {
   }
 
   bool make_encoder(const ros::NodeHandle& private_nh) {
-    FrameCodecOptions options;
-    options.colour_codec = private_nh.param("colour_codec", options.colour_codec);
-    options.colour_quality = private_nh.param("colour_quality", options.colour_quality);
-    options.measure_independent =
-        private_nh.param("measure_independent", options.measure_independent);
-    const auto fill = private_nh.param<std::string>("unsent_fill", "smooth");
-    options.fill = fill == "black" ? UnsentFill::kBlack : UnsentFill::kSmooth;
-    std::string problem;
-    if (fill != "black" && fill != "smooth") {
-      problem = "~unsent_fill is '" + fill + "', must be black or smooth";
-    } else if (!(depth_unit_ > 0.0)) {
-      problem = "~depth_unit must be above 0 (metres per count)";
-    }
-    Result<FrameEncoder> encoder = FrameEncoder::create(options);
-    if (!encoder) problem = "~colour_codec or ~colour_quality: " + encoder.reason();
+    const Result<FrameCodecOptions> options = read_codec_options(private_nh);
+    Result<FrameEncoder> encoder =
+        options ? FrameEncoder::create(*options) : Result<FrameEncoder>(Error{options.reason()});
+    std::string problem = encoder ? std::string() : encoder.reason();
+    if (!(depth_unit_ > 0.0)) problem = "~depth_unit must be above 0 (metres per count)";
     if (!problem.empty()) {
       NODELET_FATAL_STREAM(problem << "; nothing is encoded until this is mended and restarted");
       health_->error("parameters", problem);
@@ -101,7 +92,8 @@ class EncoderNodelet : public nodelet::Nodelet {
     health_->count("bytes sent", sizes.total);
     health_->show("last frame, bytes", std::to_string(sizes.total));
     health_->show("last frame, bytes of depth", std::to_string(sizes.depth));
-    health_->show("last frame, bytes of colour", std::to_string(sizes.colour));
+    health_->show("last frame, bytes of colour", std::to_string(sizes.colour + sizes.base));
+    health_->show("last frame, bytes of the base", std::to_string(sizes.base));
     health_->show("last frame, milliseconds", std::to_string(frame.report.ms_encode));
   }
 

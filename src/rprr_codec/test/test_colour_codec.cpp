@@ -165,5 +165,96 @@ TEST(Pgf, IsLosslessAtQualityZeroForEverySize) {
   }
 }
 
+// Something of every frequency.
+cv::Mat textured(int width, int height) {
+  cv::Mat image = synthetic::colourful(width, height);
+  std::mt19937 random(4);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      for (int c = 0; c < 3; ++c) {
+        auto& value = image.at<cv::Vec3b>(v, u)[c];
+        value = static_cast<std::uint8_t>(value + random() % 24);
+      }
+    }
+  }
+  return image;
+}
+
+TEST(Pgf, CutPayloadsDecodeCoarserAtTheFullSize) {
+  const auto decoder = make_local_colour_decoder();
+  for (const cv::Size& size : {cv::Size(320, 240), cv::Size(541, 361), cv::Size(16, 16)}) {
+    for (const int quality : {0, 4, 6}) {
+      const cv::Mat image = textured(size.width, size.height);
+      const Bytes payload = encoded("pgf", image, quality);
+      const Result<int> levels = pgf_levels(payload);
+      ASSERT_TRUE(levels) << levels.reason();
+      double last_error = -1.0;
+      std::size_t last_bytes = payload.size() + 1;
+      for (int coarse = 0; coarse < *levels; ++coarse) {
+        const Result<Bytes> cut = pgf_cut(payload, coarse);
+        ASSERT_TRUE(cut) << cut.reason();
+        EXPECT_LT(cut->size(), last_bytes);
+        EXPECT_EQ(*colour_payload_coarse("pgf", *cut), coarse);
+        EXPECT_EQ(*colour_payload_size("pgf", *cut), size);
+        const Result<cv::Mat> back = decoder->decode("pgf", *cut, size);
+        ASSERT_TRUE(back) << back.reason() << " level " << coarse;
+        ASSERT_EQ(back->size(), size);
+        const double error = cv::norm(*back, image, cv::NORM_L2SQR);
+        EXPECT_GT(error, last_error) << size << " quality " << quality << " level " << coarse;
+        last_error = error;
+        last_bytes = cut->size();
+        if (coarse > 0) {
+          EXPECT_EQ(*pgf_cut(*pgf_cut(payload, coarse - 1), coarse), *cut);
+        }
+      }
+      EXPECT_EQ(*pgf_cut(payload, 0), payload);
+      if (*levels == 1) continue;
+      EXPECT_LT(mean_error(*decoder->decode("pgf", *pgf_cut(payload, 1), size), image), 20.0);
+    }
+  }
+}
+
+TEST(Pgf, AConstantImageIsTheSameAtEveryLevel) {
+  const cv::Mat image(121, 163, CV_8UC3, cv::Scalar(20, 90, 200));
+  const Bytes payload = encoded("pgf", image, 0);
+  for (int coarse = 0; coarse < *pgf_levels(payload); ++coarse) {
+    const auto back =
+        make_local_colour_decoder()->decode("pgf", *pgf_cut(payload, coarse), image.size());
+    ASSERT_TRUE(back) << back.reason();
+    EXPECT_LE(cv::norm(*back, image, cv::NORM_INF), 1.0) << "level " << coarse;
+  }
+}
+
+TEST(Pgf, CutsThatDoNotExistAreErrors) {
+  const Bytes payload = encoded("pgf", textured(320, 240), 6);
+  const int levels = *pgf_levels(payload);
+  EXPECT_FALSE(pgf_cut(payload, -1));
+  EXPECT_FALSE(pgf_cut(payload, levels));
+  EXPECT_FALSE(pgf_cut(*pgf_cut(payload, 2), 1)) << "what is gone is gone";
+  EXPECT_FALSE(pgf_cut({}, 0));
+  EXPECT_FALSE(pgf_cut(encoded("webp", textured(320, 240), 6), 1));
+  Bytes damaged = payload;
+  damaged[20] ^= 1;
+  EXPECT_FALSE(pgf_cut(damaged, 1));
+}
+
+TEST(Pgf, HostileLevelsAreErrors) {
+  const Bytes payload = encoded("pgf", textured(320, 240), 6);
+  const auto refused = [&](std::size_t at, std::uint8_t value) {
+    Bytes hostile(payload.begin(), payload.end() - 4);
+    hostile[at] = value;
+    seal(hostile);
+    EXPECT_FALSE(pgf_levels(hostile)) << at << " is " << int{value};
+    EXPECT_FALSE(make_local_colour_decoder()->decode("pgf", hostile, cv::Size(320, 240)));
+  };
+  refused(0, 1);   // the former version
+  refused(3, 0);   // no level
+  refused(3, 31);  // too many
+  refused(3, 200);
+  refused(4, payload[3]);      // all left out
+  refused(4, 1);               // one left out, and its bytes still there
+  refused(9, payload[9] ^ 1);  // lengths that do not add up
+}
+
 }  // namespace
 }  // namespace rprr

@@ -197,6 +197,21 @@ TEST_F(FrameCodec, SeveralSettingsOfOneFrame) {
   }
 }
 
+TEST_F(FrameCodec, ACutDetailIsKnownToBeCoarse) {
+  const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
+  for (const BlockMask* sent : {static_cast<const BlockMask*>(nullptr), &mask}) {
+    Result<FrameEncoder> encoder = FrameEncoder::create({});
+    EncodedFrame frame = frame_of(sent);
+    ASSERT_TRUE(encoder->encode(depth_, bgr_, frame));
+    EXPECT_EQ(decoder_.decode(frame)->coarse, 0);
+    frame.colour = *pgf_cut(frame.colour, 1);
+    const Result<DecodedFrame> decoded = decoder_.decode(frame);
+    ASSERT_TRUE(decoded) << decoded.reason();
+    EXPECT_EQ(decoded->coarse, 1);
+    EXPECT_EQ(decoded->bgr.size(), bgr_.size());
+  }
+}
+
 TEST_F(FrameCodec, SettingsThatDoNotExistAreErrors) {
   const BlockMask mask = synthetic::region(BlockGrid(kWidth, kHeight), 0.4);
   Result<FrameEncoder> encoder = FrameEncoder::create({});

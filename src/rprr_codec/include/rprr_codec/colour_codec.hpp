@@ -33,6 +33,8 @@ class ColourEncoder {
   /// The payload, sealed with a CRC-32. quality is on the codec's own scale. Errors: another type
   /// of image, one without pixels or beyond kMaxImageSide, a quality out of range.
   virtual Result<Bytes> encode(const cv::Mat& bgr, int quality) = 0;
+  /// Whether it spends least on blocks of 8x8 pixels that are of one colour, or on a smooth slope.
+  virtual bool prefers_flat_blocks() const { return false; }
 };
 
 /// Decodes untrusted payloads of any codec that this build knows. One object serves one thread.
@@ -46,6 +48,17 @@ class ColourDecoder {
 /// The image size that a payload of a codec states, for a decoder that was not told it otherwise:
 /// 1 to kMaxImageSide pixels a side. Errors: damaged, unknown. The pixels are not looked at.
 Result<cv::Size> colour_payload_size(const std::string& codec, ByteView payload);
+
+/// How often the resolution of what a payload holds is halved against the size that it states: 0,
+/// or more if it was cut. Errors as above.
+Result<int> colour_payload_coarse(const std::string& codec, ByteView payload);
+
+/// Resolutions of a pgf payload: it decodes at any coarse below this (at least 1).
+Result<int> pgf_levels(ByteView payload);
+/// A pgf payload without the finest levels, sealed anew: it decodes to an image of the full size,
+/// interpolated from the one halved coarse times. Errors: damaged, fewer levels than that, a
+/// payload that is coarser already. coarse 0 changes nothing.
+Result<Bytes> pgf_cut(ByteView payload, int coarse);
 
 /// Names that make_colour_encoder takes: pgf, jpeg, webp.
 std::vector<std::string> colour_codecs();

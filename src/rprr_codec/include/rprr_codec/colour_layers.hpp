@@ -41,7 +41,7 @@ class ColourLayers {
   Result<Bytes> encode_detail(int quality);
   /// The base. with_detail: the detail is sent too, so blocks that are in it need not be right here
   /// and are filled from the others. Errors as above, a reduction that is none.
-  Result<Bytes> encode_base(int reduction, int quality, bool with_detail);
+  Result<Bytes> encode_base(int reduction, int quality, bool with_detail = true);
   /// What encode_base encodes.
   const cv::Mat& base(int reduction, bool with_detail);
   /// The whole image, whatever is sent of it.
@@ -61,7 +61,7 @@ class ColourLayers {
   ColourLayers(std::unique_ptr<ColourEncoder> detail, std::unique_ptr<ColourEncoder> base,
                UnsentFill fill);
   void choose_layout();
-  void fill(cv::Mat& bgr, const BlockMask& known, int reduction);
+  void fill(cv::Mat& bgr, const BlockMask& known, int reduction, bool flat);
   const cv::Mat& detail();
 
   std::unique_ptr<ColourEncoder> detail_codec_;

@@ -20,8 +20,9 @@ class SmoothFill {
   cv::Mat fill(const cv::Mat& bgr, const BlockMask& sent);
 
   /// The same without a copy, of an image of which each pixel stands for reduction x reduction
-  /// pixels of the mask's grid: 1, 2, 4 or 8. A block is 8 / reduction pixels wide and high.
-  void fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction = 1);
+  /// pixels of the mask's grid: 1, 2, 4 or 8. A block is 8 / reduction pixels wide and high. flat:
+  /// each unknown block in one colour, for codecs of blocks that predict nothing but that.
+  void fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction = 1, bool flat = false);
 
  private:
   std::array<cv::Mat, 4> levels_;  // CV_8UC3; level k has cells of 2^k pixels, 3 is a block

@@ -18,6 +18,7 @@ struct DecodedFrame {
   cv::Mat base;  // CV_8UC3 of base_size(), coarse; empty if there is none. Where there is detail
                  // only a continuation of the rest
   bool has_detail = true;  // false: bgr is black
+  int coarse = 0;          // how often the detail's resolution is halved: its payload was cut
 };
 
 /// Untrusted frame to images.

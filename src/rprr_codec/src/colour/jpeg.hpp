@@ -13,6 +13,7 @@ class JpegEncoder : public ColourEncoder {
   static ColourCodecInfo info() { return {"jpeg", 100, 1}; }
   std::string name() const override { return info().name; }
   Result<Bytes> encode(const cv::Mat& bgr, int quality) override;
+  bool prefers_flat_blocks() const override { return true; }
 };
 
 /// Payload: a JPEG image without JFIF header, u32 CRC-32. Call it in a process that may die.

@@ -8,18 +8,17 @@
 #include <opencv2/core.hpp>
 
 #include "colour/checks.hpp"
+#include "colour/pgf_container.hpp"
 
 namespace rprr {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
 constexpr int kBitsPerPixel = 24;
-// libpgf leaks where an image is too small for a wavelet level: smaller images are widened to this.
-constexpr int kMinSide = 16;
-
-cv::Size coded_size(cv::Size size) {
-  return {std::max(size.width, kMinSide), std::max(size.height, kMinSide)};
-}
+constexpr int kChannels = 3;
+// As many as the image's sides allow, up to this. libpgf's own choice leaves a small image at up to
+// 100 pixels a side that it codes badly: the blocks of a sparse frame would take up to three times
+// the bytes.
+constexpr UINT8 kLevels = 6;
 
 // libpgf throws IOException, which is no std::exception.
 template <typename T, typename Work>
@@ -37,10 +36,10 @@ Bytes encode_image(const cv::Mat& bgr, int quality) {
   PGFHeader header;
   header.width = static_cast<UINT32>(bgr.cols);
   header.height = static_cast<UINT32>(bgr.rows);
-  header.nLevels = 0;  // libpgf chooses
+  header.nLevels = kLevels;
   header.quality = static_cast<UINT8>(quality);
   header.bpp = kBitsPerPixel;
-  header.channels = 3;
+  header.channels = kChannels;
   header.mode = ImageModeRGBColor;
   header.usedBitsPerChannel = 0;  // all
 
@@ -56,36 +55,65 @@ Bytes encode_image(const cv::Mat& bgr, int quality) {
   return Bytes(begin, begin + stream.GetEOS());
 }
 
-cv::Mat decode_image(ByteView pgf, cv::Size expected) {
-  // The stream only reads, though it takes a pointer to non-const.
-  CPGFMemoryStream stream(const_cast<UINT8*>(pgf.data), pgf.size);
+// The image of a level: ceil(side / 2^level) pixels a side.
+cv::Mat decode_level(Bytes& file, cv::Size expected, int level) {
+  CPGFMemoryStream stream(file.data(), file.size());
   CPGFImage image;
   image.ConfigureDecoder(false);
   image.Open(&stream);
   if (image.Width() != static_cast<UINT32>(expected.width) ||
       image.Height() != static_cast<UINT32>(expected.height) || image.Mode() != ImageModeRGBColor ||
-      image.BPP() != kBitsPerPixel || image.Channels() != 3) {
+      image.BPP() != kBitsPerPixel || image.Channels() != kChannels || image.Levels() <= level) {
     throw IOException(FormatCannotRead);
   }
-  image.Read();
-  cv::Mat bgr(expected, CV_8UC3);
+  image.Read(level);
+  cv::Mat bgr(static_cast<int>(image.Height(level)), static_cast<int>(image.Width(level)), CV_8UC3);
   image.GetBitmap(static_cast<int>(bgr.step), bgr.ptr<UINT8>(), kBitsPerPixel);
   return bgr;
 }
 
-// Reads what stands before the PGF bytes: the size of the image.
-Result<cv::Size> open_container(ByteReader& reader) {
-  const auto version = reader.get<std::uint8_t>();
-  reader.get<std::uint8_t>();  // quality: stands in the PGF header as well
-  const int width = reader.get<std::uint16_t>();
-  const int height = reader.get<std::uint16_t>();
-  if (!reader.ok()) return Error{"colour payload damaged or cut short"};
-  if (version != kVersion) return Error{"colour payload of an unknown version"};
-  return possible_size(width, height);
+std::uint8_t between(int a, int b) {
+  return static_cast<std::uint8_t>((a + b + 1) >> 1);
+}
+
+// Twice the resolution, as PGF's wavelet (5/3) does it where the finer level is zero: pixels stand
+// at even places, what is between them is their mean.
+cv::Mat doubled(const cv::Mat& coarse, cv::Size size) {
+  cv::Mat fine(size, CV_8UC3);
+  for (int v = 0; v < size.height; v += 2) {
+    const auto* from = coarse.ptr<std::uint8_t>(v / 2);
+    auto* to = fine.ptr<std::uint8_t>(v);
+    for (int u = 0; u < size.width; ++u, to += kChannels) {
+      const auto* left = from + kChannels * (u / 2);
+      const auto* right = from + kChannels * std::min((u + 1) / 2, coarse.cols - 1);
+      for (int c = 0; c < kChannels; ++c) to[c] = between(left[c], right[c]);
+    }
+  }
+  for (int v = 1; v < size.height; v += 2) {
+    const auto* above = fine.ptr<std::uint8_t>(v - 1);
+    const auto* below = fine.ptr<std::uint8_t>(v + 1 < size.height ? v + 1 : v - 1);
+    auto* to = fine.ptr<std::uint8_t>(v);
+    for (int i = 0; i < kChannels * size.width; ++i) to[i] = between(above[i], below[i]);
+  }
+  return fine;
+}
+
+int level_side(int side, int level) {
+  return (side + (1 << level) - 1) >> level;
+}
+
+cv::Mat decode_parts(const PgfParts& parts) {
+  const cv::Size coded = pgf_coded_size(parts.size);
+  Bytes file = pgf_file(parts);
+  cv::Mat image = decode_level(file, coded, parts.coarse);
+  for (int level = parts.coarse - 1; level >= 0; --level) {
+    image = doubled(image, {level_side(coded.width, level), level_side(coded.height, level)});
+  }
+  return image.size() == parts.size ? image : image(cv::Rect({0, 0}, parts.size)).clone();
 }
 
 cv::Mat widened(const cv::Mat& bgr) {
-  const cv::Size size = coded_size(bgr.size());
+  const cv::Size size = pgf_coded_size(bgr.size());
   if (size == bgr.size()) return bgr;
   cv::Mat wide;
   cv::copyMakeBorder(bgr, wide, 0, size.height - bgr.rows, 0, size.width - bgr.cols,
@@ -98,36 +126,29 @@ cv::Mat widened(const cv::Mat& bgr) {
 Result<Bytes> PgfEncoder::encode(const cv::Mat& bgr, int quality) {
   const std::string wrong = unencodable(bgr, quality, info());
   if (!wrong.empty()) return Error{wrong};
-  Result<Bytes> pgf =
+  const Result<Bytes> file =
       guarded<Bytes>("encoding PGF", [&] { return encode_image(widened(bgr), quality); });
-  if (!pgf) return pgf;
-  ByteWriter writer;
-  writer.bytes().reserve(pgf->size() + 10);
-  writer.put(kVersion);
-  writer.put(static_cast<std::uint8_t>(quality));
-  writer.put(static_cast<std::uint16_t>(bgr.cols));
-  writer.put(static_cast<std::uint16_t>(bgr.rows));
-  writer.append(*pgf);
-  Bytes payload = writer.take();
-  seal(payload);
-  return payload;
+  if (!file) return file;
+  const Result<PgfParts> parts = parse_pgf_file(*file, bgr.size());
+  if (!parts) return Error{"encoding PGF: " + parts.reason()};
+  return pgf_payload(*parts);
 }
 
 Result<cv::Size> pgf_payload_size(ByteView payload) {
-  ByteReader reader(unseal(payload));
-  return open_container(reader);
+  const Result<PgfParts> parts = parse_pgf_payload(payload);
+  return parts ? Result<cv::Size>(parts->size) : Result<cv::Size>(Error{parts.reason()});
+}
+
+Result<int> pgf_payload_coarse(ByteView payload) {
+  const Result<PgfParts> parts = parse_pgf_payload(payload);
+  return parts ? Result<int>(parts->coarse) : Result<int>(Error{parts.reason()});
 }
 
 Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected) {
-  ByteReader reader(unseal(payload));
-  const Result<cv::Size> size = open_container(reader);
-  if (!size) return Error{size.reason()};
-  if (*size != expected) return Error{"colour payload is of another size than expected"};
-  const ByteView pgf = reader.get_view(reader.left());
-  return guarded<cv::Mat>("decoding PGF", [&] {
-    const cv::Mat image = decode_image(pgf, coded_size(expected));
-    return image.size() == expected ? image : image(cv::Rect({0, 0}, expected)).clone();
-  });
+  const Result<PgfParts> parts = parse_pgf_payload(payload);
+  if (!parts) return Error{parts.reason()};
+  if (parts->size != expected) return Error{"colour payload is of another size than expected"};
+  return guarded<cv::Mat>("decoding PGF", [&] { return decode_parts(*parts); });
 }
 
 }  // namespace rprr

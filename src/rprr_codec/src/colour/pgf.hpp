@@ -15,12 +15,13 @@ class PgfEncoder : public ColourEncoder {
   Result<Bytes> encode(const cv::Mat& bgr, int quality) override;
 };
 
-/// Container of version 1: u8 version, u8 quality, u16 width, u16 height, PGF bytes, u32 CRC-32.
-/// The PGF image has at least 16 pixels a side; what is beyond width and height is cut off.
-/// libpgf is not safe against hostile bytes: call it in a process that may die.
+/// Payload of version 2: doc/encoded_frame.md. The PGF image has at least 16 pixels a side; what is
+/// beyond width and height is cut off. libpgf is not safe against hostile bytes: call it in a
+/// process that may die.
 Result<cv::Mat> decode_pgf(ByteView payload, cv::Size expected);
 
-/// What its container states.
+/// What the payload's head states.
 Result<cv::Size> pgf_payload_size(ByteView payload);
+Result<int> pgf_payload_coarse(ByteView payload);
 
 }  // namespace rprr

@@ -56,6 +56,12 @@ Result<cv::Size> colour_payload_size(const std::string& name, ByteView payload) 
   return codec != nullptr ? codec->payload_size(payload) : Result<cv::Size>(unknown(name));
 }
 
+Result<int> colour_payload_coarse(const std::string& name, ByteView payload) {
+  if (name == PgfEncoder::info().name) return pgf_payload_coarse(payload);
+  const Result<cv::Size> size = colour_payload_size(name, payload);
+  return size ? Result<int>(0) : Result<int>(Error{size.reason()});
+}
+
 std::vector<std::string> colour_codecs() {
   std::vector<std::string> names;
   for (const Codec& codec : kCodecs) names.push_back(codec.info().name);

@@ -53,9 +53,9 @@ void close_inherited() {
 // Memory for images stays with the process: mapping it anew for each would take longer than
 // decoding small ones.
 void keep_memory() {
-  constexpr int kKept = 256 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, kKept);
-  ::mallopt(M_TRIM_THRESHOLD, kKept);
+  constexpr int kLargestMapped = 32 << 20;  // the most that older libraries take
+  ::mallopt(M_MMAP_THRESHOLD, kLargestMapped);
+  ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
   ::mallopt(M_TOP_PAD, 16 << 20);
 }
 
