@@ -223,7 +223,7 @@ TEST_F(FrameCodec, SettingsThatDoNotExistAreErrors) {
   EXPECT_TRUE(encodes(&mask, {2, 10, 6, false}));
   EXPECT_FALSE(encodes(&mask, {0, 10, 6, false})) << "no colour at all";
   EXPECT_FALSE(encodes(&mask, {3, 10, 6, true})) << "no such reduction";
-  EXPECT_FALSE(encodes(&mask, {16, 10, 6, true})) << "no such reduction";
+  EXPECT_FALSE(encodes(&mask, {32, 10, 6, true})) << "no such reduction";
   EXPECT_FALSE(encodes(&mask, {2, 31, 6, true})) << "no such quality";
   EXPECT_FALSE(encodes(&mask, {2, 10, -1, true})) << "no such quality";
   EXPECT_FALSE(encodes(nullptr, {2, 10, 6, false})) << "a whole frame without its image";
