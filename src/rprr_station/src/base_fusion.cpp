@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <opencv2/core.hpp>
 
 #include "float4.hpp"
@@ -136,24 +137,17 @@ void weighted_rest(const cv::Mat& whole, const cv::Mat& part, const cv::Mat& wei
   }
 }
 
-// The pixel of the base that shows a place of the frame, between its pixels.
-Float4 sample(const BaseImage& base, int u, int v) {
-  const auto r = static_cast<float>(base.reduction);
-  const float x = std::clamp((static_cast<float>(u) + 0.5f) / r - 0.5f, 0.0f,
-                             static_cast<float>(base.bgr.cols - 1));
-  const float y = std::clamp((static_cast<float>(v) + 0.5f) / r - 0.5f, 0.0f,
-                             static_cast<float>(base.bgr.rows - 1));
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const int right = std::min(left + 1, base.bgr.cols - 1);
-  const auto* upper = base.bgr.ptr<std::uint8_t>(top);
-  const auto* lower = base.bgr.ptr<std::uint8_t>(std::min(top + 1, base.bgr.rows - 1));
-  const Float4 across = all4(x - static_cast<float>(left));
-  const Float4 above = load_bgr(upper + 3 * left) +
-                       across * (load_bgr(upper + 3 * right) - load_bgr(upper + 3 * left));
-  const Float4 below = load_bgr(lower + 3 * left) +
-                       across * (load_bgr(lower + 3 * right) - load_bgr(lower + 3 * left));
-  return above + all4(y - static_cast<float>(top)) * (below - above);
+// Places of the frame's columns or rows in the base: between which two pixels, and how far.
+void find_places(int count, int reduction, int base_count, std::vector<BasePlace>& places) {
+  places.resize(static_cast<std::size_t>(count));
+  const auto r = static_cast<float>(reduction);
+  for (int i = 0; i < count; ++i) {
+    const float at = std::clamp((static_cast<float>(i) + 0.5f) / r - 0.5f, 0.0f,
+                                static_cast<float>(base_count - 1));
+    const int first = static_cast<int>(at);
+    places[static_cast<std::size_t>(i)] = {3 * first, 3 * std::min(first + 1, base_count - 1),
+                                           at - static_cast<float>(first)};
+  }
 }
 
 }  // namespace
@@ -186,13 +180,30 @@ void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
 }
 
 void BaseFusion::take_base_where_unknown(const BaseImage& base, PredictedView& view) {
+  find_places(view.bgr.cols, base.reduction, base.bgr.cols, columns_);
+  find_places(view.bgr.rows, base.reduction, base.bgr.rows, rows_);
   for (int v = 0; v < view.bgr.rows; ++v) {
     auto* provenance = view.provenance.ptr<std::uint8_t>(v);
+    if (std::memchr(provenance, kNothing, static_cast<std::size_t>(view.bgr.cols)) == nullptr) {
+      continue;
+    }
     auto* colours = view.bgr.ptr<std::uint8_t>(v);
+    const BasePlace& row = rows_[static_cast<std::size_t>(v)];
+    const auto* upper = base.bgr.ptr<std::uint8_t>(row.first / 3);
+    const auto* lower = base.bgr.ptr<std::uint8_t>(row.second / 3);
     for (int u = 0; u < view.bgr.cols; ++u) {
       if (provenance[u] != kNothing) continue;
       provenance[u] = kBase;
-      store_bgr(sample(base, u, v), colours + 3 * u);
+      const BasePlace& at = columns_[static_cast<std::size_t>(u)];
+      for (int i = 0; i < 3; ++i) {
+        const auto across = [&](const std::uint8_t* line) {
+          const auto near = static_cast<float>(line[at.first + i]);
+          return near + at.share * (static_cast<float>(line[at.second + i]) - near);
+        };
+        const float above = across(upper);
+        colours[3 * u + i] =
+            static_cast<std::uint8_t>(above + row.share * (across(lower) - above) + 0.5f);
+      }
     }
   }
 }

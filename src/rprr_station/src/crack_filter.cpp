@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <opencv2/core.hpp>
 
 namespace rprr {
 namespace {
 
 constexpr int kLargestRadius = 4;
+constexpr int kStretch = 32;  // pixels of a row that are looked at together
 constexpr int kMedianCapacity = (2 * kLargestRadius + 1) * (2 * kLargestRadius + 1);
 constexpr std::array<std::array<int, 2>, 4> kAxes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};  // du, dv
 
@@ -183,9 +185,16 @@ void CrackFilter::close_cracks(cv::Mat& metres, cv::Mat& mended) {
   flags_.create(1, metres.cols, CV_8UC1);
   auto* const candidates = flags_.ptr<std::uint8_t>();
   for (int v = 0; v < metres.rows; ++v) {
-    kFlagCandidates[static_cast<std::size_t>(reach - 1)](
-        valid_(inner).ptr<std::uint8_t>(v), static_cast<std::ptrdiff_t>(valid_.step[0]),
-        metres.cols, candidates);
+    const auto* valid = valid_(inner).ptr<std::uint8_t>(v);
+    for (int begin = 0; begin < metres.cols; begin += kStretch) {
+      const int count = std::min(kStretch, metres.cols - begin);
+      if (std::memchr(valid + begin, 0, static_cast<std::size_t>(count)) == nullptr) {
+        std::memset(candidates + begin, 0, static_cast<std::size_t>(count));
+        continue;
+      }
+      kFlagCandidates[static_cast<std::size_t>(reach - 1)](
+          valid + begin, static_cast<std::ptrdiff_t>(valid_.step[0]), count, candidates + begin);
+    }
     for (int u = 0; u < metres.cols; ++u) {
       if (candidates[u] == 0) continue;
       const int radius = neighbourhood.closing_radius(u, v, reach, options_.range);

@@ -14,6 +14,9 @@ namespace rprr {
 /// Fetches colours of the reference image for points of the target view, bilinearly.
 class Fetcher {
  public:
+  static constexpr int kBits = 7;  // of a pixel each way: what 8-bit colours deserve
+  static constexpr int kOne = 1 << kBits;
+
   /// bgr: CV_8UC3, continuous, of the depth's size.
   Fetcher(const DepthFrame& depth, const cv::Mat& bgr, float tolerance)
       : depth_(depth.counts.ptr<std::uint16_t>()),
@@ -21,19 +24,35 @@ class Fetcher {
         cols_(bgr.cols),
         rows_(bgr.rows),
         unit_(static_cast<float>(depth.unit)),
-        tolerance_(tolerance),
-        right_(static_cast<float>(bgr.cols - 1)),
-        bottom_(static_cast<float>(bgr.rows - 1)) {}
+        tolerance_(tolerance) {}
 
-  /// Colour at (x, y), if the reference shows the surface at depth z there, or has no depth there.
-  bool fetch(float x, float y, float z, std::uint8_t* colour) const {
-    if (!(x >= -0.5f && y >= -0.5f && x < right_ + 0.5f && y < bottom_ + 0.5f)) return false;
-    x = std::clamp(x, 0.0f, right_);
-    y = std::clamp(y, 0.0f, bottom_);
-    const int nearest = static_cast<int>(y + 0.5f) * cols_ + static_cast<int>(x + 0.5f);
+  /// Places for fetch(): x and y in pixels, turned into steps of 1 / kOne and kept in the image; -1
+  /// in x where they are more than half a pixel out of it. Plain numbers, so that compilers
+  /// vectorise it.
+  void find_places(const float* __restrict x, const float* __restrict y, int count,
+                   int* __restrict x_steps, int* __restrict y_steps) const {
+    const auto right = static_cast<float>(cols_ - 1);
+    const auto bottom = static_cast<float>(rows_ - 1);
+    for (int i = 0; i < count; ++i) {
+      const int out = static_cast<int>(!(x[i] >= -0.5f)) | static_cast<int>(!(y[i] >= -0.5f)) |
+                      static_cast<int>(!(x[i] < right + 0.5f)) |
+                      static_cast<int>(!(y[i] < bottom + 0.5f));
+      // In this order what is not a number becomes 0.
+      const float u = std::min(std::max(0.0f, x[i]), right);
+      const float v = std::min(std::max(0.0f, y[i]), bottom);
+      x_steps[i] = static_cast<int>(u * kOne + 0.5f) | -out;
+      y_steps[i] = static_cast<int>(v * kOne + 0.5f);
+    }
+  }
+
+  /// Colour at a place, if the reference shows the surface at depth z there, or has no depth there.
+  bool fetch(int x_steps, int y_steps, float z, std::uint8_t* colour) const {
+    if (x_steps < 0) return false;
+    constexpr int kHalf = kOne / 2;
+    const int nearest = ((y_steps + kHalf) >> kBits) * cols_ + ((x_steps + kHalf) >> kBits);
     const float seen = unit_ * static_cast<float>(depth_[nearest]);
     if (seen > 0.0f && std::abs(seen - z) > tolerance_ * z) return false;
-    interpolate(x, y, colour);
+    interpolate(x_steps, y_steps, colour);
     return true;
   }
 
@@ -43,53 +62,63 @@ class Fetcher {
   }
 
  private:
-  // 7 bits each way: what 8-bit colours deserve.
-  void interpolate(float x, float y, std::uint8_t* colour) const {
-    const int u = std::min(static_cast<int>(x), std::max(cols_ - 2, 0));
-    const int v = std::min(static_cast<int>(y), std::max(rows_ - 2, 0));
-    const int across = static_cast<int>((x - static_cast<float>(u)) * 128.0f + 0.5f);
-    const int down = static_cast<int>((y - static_cast<float>(v)) * 128.0f + 0.5f);
+  void interpolate(int x, int y, std::uint8_t* colour) const {
+    const int u = std::min(x >> kBits, cols_ - 2);
+    const int v = std::min(y >> kBits, rows_ - 2);
+    const int across = x - (u << kBits);
+    const int down = y - (v << kBits);
+    // Four bytes are read of each pixel, one more than it has.
+    if (v + 2 >= rows_ || u < 0 || v < 0) return interpolate_at_rim(u, v, across, down, colour);
     const std::uint8_t* upper = pixel(v * cols_ + u);
-    // Eight bytes are read of each row, two more than the two pixels have.
-    const bool inside = v + 2 < rows_ && cols_ > 2;
-    if (!inside) return interpolate_at_rim(u, v, across, down, colour);
-    std::int16_t mixed[8];
-    store(mix(load(upper), load(upper + 3 * cols_), down), mixed);
-    for (int i = 0; i < 3; ++i) {
-      colour[i] = static_cast<std::uint8_t>(
-          (128 * mixed[i] + across * (mixed[i + 3] - mixed[i]) + 64) >> 7);
-    }
+    const std::uint8_t* lower = upper + 3 * cols_;
+    const Lanes columns = mix(load(upper, lower), load(upper + 3, lower + 3), across);
+    store(mix(columns, upper_half(columns), down), colour);
   }
 
   void interpolate_at_rim(int u, int v, int across, int down, std::uint8_t* colour) const {
-    const int next = std::min(u + 1, cols_ - 1);
-    const int below = std::min(v + 1, rows_ - 1);
+    // Images of one row or column have no second.
+    const int left = std::max(u, 0);
+    const int top = std::max(v, 0);
+    const int next = std::min(left + 1, cols_ - 1);
+    const int below = std::min(top + 1, rows_ - 1);
     for (int i = 0; i < 3; ++i) {
-      const auto at = [&](int row, int column) {
-        return static_cast<int>(pixel(row * cols_ + column)[i]);
+      const auto row = [&](int line) {
+        const int near = pixel(line * cols_ + left)[i];
+        return near + ((across * (pixel(line * cols_ + next)[i] - near) + kOne / 2) >> kBits);
       };
-      const int left = (at(v, u) * (128 - down) + at(below, u) * down + 64) >> 7;
-      const int right = (at(v, next) * (128 - down) + at(below, next) * down + 64) >> 7;
-      colour[i] = static_cast<std::uint8_t>((left * (128 - across) + right * across + 64) >> 7);
+      const int above = row(top);
+      colour[i] =
+          static_cast<std::uint8_t>(above + ((down * (row(below) - above) + kOne / 2) >> kBits));
     }
   }
 
-  // Eight 16-bit lanes in the compilers' portable vector type.
+  // Eight 16-bit lanes in the compilers' portable vector type: a pixel of an upper row in four,
+  // one of the row below in the others.
   using Lanes = std::int16_t __attribute__((vector_size(16)));
   using Octets = std::uint8_t __attribute__((vector_size(8)));
-  static Lanes load(const std::uint8_t* from) {
+  using Halves = std::int64_t __attribute__((vector_size(16)));
+
+  static Lanes load(const std::uint8_t* upper, const std::uint8_t* lower) {
     Octets bytes;
-    std::memcpy(&bytes, from, sizeof(bytes));
+    std::memcpy(&bytes, upper, 4);
+    std::memcpy(reinterpret_cast<char*>(&bytes) + 4, lower, 4);
     return __builtin_convertvector(bytes, Lanes);
   }
-  static void store(Lanes lanes, std::int16_t* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
+  static Lanes upper_half(Lanes lanes) {
+    const auto halves = reinterpret_cast<Halves>(lanes);
+    return reinterpret_cast<Lanes>(Halves{halves[1], halves[1]});
+  }
   static Lanes all(int value) {
     const auto v = static_cast<std::int16_t>(value);
     return Lanes{v, v, v, v, v, v, v, v};
   }
-  // Within 16 bits: what overflows on the way comes back, since the sum is at most 255 * 128 + 64.
-  static Lanes mix(Lanes upper, Lanes lower, int down) {
-    return ((upper << 7) + (lower - upper) * all(down) + all(64)) >> 7;
+  // a + share (b - a), share in steps; products are at most 255 * 128 either way.
+  static Lanes mix(Lanes a, Lanes b, int share) {
+    return a + (((b - a) * all(share) + all(kOne / 2)) >> kBits);
+  }
+  static void store(Lanes lanes, std::uint8_t* colour) {
+    const Octets bytes = __builtin_convertvector(lanes, Octets);
+    std::memcpy(colour, &bytes, 3);
   }
 
   const std::uint16_t* depth_;
@@ -98,8 +127,6 @@ class Fetcher {
   int rows_;
   float unit_;
   float tolerance_;
-  float right_;
-  float bottom_;
 };
 
 }  // namespace rprr

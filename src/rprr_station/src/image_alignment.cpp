@@ -40,29 +40,32 @@ void smooth(cv::Mat& values, cv::Mat& scratch) {
 }  // namespace
 
 void shifts_of_row(const cv::Mat& shifts, int scale, int row, int width, float* x, float* y) {
-  const float cell = static_cast<float>(ImageAlignment::kCell * scale);
-  const auto place = [cell](int pixel, int count) {
-    return std::clamp((static_cast<float>(pixel) + 0.5f) / cell - 0.5f, 0.0f,
-                      static_cast<float>(count - 1));
-  };
-  const float at_v = place(row, shifts.rows);
-  const int top = static_cast<int>(at_v);
-  const float down = at_v - static_cast<float>(top);
+  const int side = ImageAlignment::kCell * scale;
+  const auto cell = static_cast<float>(side);
+  const float at = std::clamp((static_cast<float>(row) + 0.5f) / cell - 0.5f, 0.0f,
+                              static_cast<float>(shifts.rows - 1));
+  const int top = static_cast<int>(at);
+  const float down = at - static_cast<float>(top);
   const auto* upper = shifts.ptr<cv::Vec2f>(top);
   const auto* lower = shifts.ptr<cv::Vec2f>(std::min(top + 1, shifts.rows - 1));
   const auto unit = static_cast<float>(scale);
-  for (int u = 0; u < width; ++u) {
-    const float at_u = place(u, shifts.cols);
-    const int left = static_cast<int>(at_u);
-    const int right = std::min(left + 1, shifts.cols - 1);
-    const float across = at_u - static_cast<float>(left);
-    const auto mix = [&](int i) {
-      const float above = upper[left][i] + across * (upper[right][i] - upper[left][i]);
-      const float below = lower[left][i] + across * (lower[right][i] - lower[left][i]);
-      return unit * (above + down * (below - above));
-    };
-    x[u] = mix(0);
-    y[u] = mix(1);
+  const auto mixed = [&](int column, int i) {
+    const int k = std::clamp(column, 0, shifts.cols - 1);
+    return unit * (upper[k][i] + down * (lower[k][i] - upper[k][i]));
+  };
+  // Straight lines from one cell's centre to the next.
+  for (int k = -1; k < shifts.cols; ++k) {
+    const int begin = std::clamp(k * side + side / 2, 0, width);
+    const int end = k + 1 == shifts.cols ? width : std::clamp(begin + side, 0, width);
+    const int next = k < 0 ? std::min(side / 2, width) : end;
+    const float centre = (static_cast<float>(k) + 0.5f) * cell - 0.5f;
+    const float x_start = mixed(k, 0), x_slope = (mixed(k + 1, 0) - x_start) / cell;
+    const float y_start = mixed(k, 1), y_slope = (mixed(k + 1, 1) - y_start) / cell;
+    for (int u = begin; u < next; ++u) {
+      const float away = static_cast<float>(u) - centre;
+      x[u] = x_start + x_slope * away;
+      y[u] = y_start + y_slope * away;
+    }
   }
 }
 

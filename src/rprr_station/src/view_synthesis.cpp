@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <opencv2/core.hpp>
 
 #include "fetcher.hpp"
@@ -21,24 +22,27 @@ void prepare(const Camera& camera, PredictedView& view) {
   view.bgr.setTo(0);
 }
 
-float brightness(const std::uint8_t* bgr) {
-  return 0.25f * static_cast<float>(bgr[0] + 2 * bgr[1] + bgr[2]);
-}
-
-// Mean brightness of cells of side x side pixels, as far as the image goes.
-void reduce_brightness(const cv::Mat& bgr, int side, cv::Mat& out) {
+// Mean brightness (of all channels) of cells of side x side pixels, as far as the image goes; side
+// at most 8.
+void reduce_brightness(const cv::Mat& bgr, int side, cv::Mat& out,
+                       std::vector<std::uint16_t>& sums) {
   out.create((bgr.rows + side - 1) / side, (bgr.cols + side - 1) / side, CV_32FC1);
-  out.setTo(0);
-  for (int v = 0; v < bgr.rows; ++v) {
-    const auto* from = bgr.ptr<std::uint8_t>(v);
-    auto* to = out.ptr<float>(v / side);
-    for (int u = 0; u < bgr.cols; ++u) to[u / side] += brightness(from + 3 * u);
-  }
+  sums.resize(static_cast<std::size_t>(3 * bgr.cols));
   for (int v = 0; v < out.rows; ++v) {
-    auto* to = out.ptr<float>(v);
     const int height = std::min(side, bgr.rows - v * side);
+    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
+    for (int y = 0; y < height; ++y) {
+      const auto* from = bgr.ptr<std::uint8_t>(v * side + y);
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i] = static_cast<std::uint16_t>(sums[i] + from[i]);
+      }
+    }
+    auto* to = out.ptr<float>(v);
     for (int u = 0; u < out.cols; ++u) {
-      to[u] /= static_cast<float>(height * std::min(side, bgr.cols - u * side));
+      const int count = 3 * std::min(side, bgr.cols - u * side);
+      const auto first = sums.begin() + 3 * side * u;
+      to[u] = static_cast<float>(std::accumulate(first, first + count, 0)) /
+              static_cast<float>(height * count);
     }
   }
 }
@@ -113,14 +117,15 @@ void ViewSynthesizer::synthesize(const DepthFrame& a, const cv::Mat& a_bgr, cons
   }
   const Fetcher fetcher(a, a_bgr, options_.surface_tolerance);
   rows_.create(6, b_camera.width, CV_32FC1);
+  places_.create(2, b_camera.width, CV_32SC1);
   for (int v = 0; v < b_camera.height; ++v) fetch_row(fetcher, to_a, v, view);
 }
 
 // Shifts between the prediction, at a quarter of its size, and the base.
 void ViewSynthesizer::align(const cv::Mat& a_bgr, const PixelMap& to_a, const BaseImage& base,
                             const cv::Mat& metres) {
-  reduce_brightness(a_bgr, kAlignment, a_brightness_);
-  reduce_brightness(base.bgr, kAlignment / base.reduction, wanted_);
+  reduce_brightness(a_bgr, kAlignment, a_brightness_, sums_);
+  reduce_brightness(base.bgr, kAlignment / base.reduction, wanted_, sums_);
   brightness_.create(wanted_.size(), CV_32FC1);
   valid_.create(wanted_.size(), CV_8UC1);
   constexpr float kCentre = 0.5f * (kAlignment - 1);
@@ -176,6 +181,9 @@ void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int
   const auto* const source = warped_.source.ptr<int>(v);
   const bool backward = options_.mode == Synthesis::kBackward;
   const Fetcher fetcher = shared;  // its own, so that compilers see that colours do not alias it
+  int* const x_steps = places_.ptr<int>(0);
+  int* const y_steps = places_.ptr<int>(1);
+  fetcher.find_places(at.x, at.y, width, x_steps, y_steps);
   for (int u = 0; u < width; ++u) {
     if (!(depth[u] > 0.0f)) {
       provenance[u] = kNothing;
@@ -184,7 +192,8 @@ void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int
     const bool mended = provenance[u] != 0;
     provenance[u] = mended ? kMended : kPredicted;
     if (mended || backward) {
-      if (at.z[u] >= kNearestDepth && fetcher.fetch(at.x[u], at.y[u], at.z[u], colours + 3 * u)) {
+      if (at.z[u] >= kNearestDepth &&
+          fetcher.fetch(x_steps[u], y_steps[u], at.z[u], colours + 3 * u)) {
         continue;
       }
     }

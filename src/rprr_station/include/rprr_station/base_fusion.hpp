@@ -9,6 +9,14 @@
 
 namespace rprr {
 
+/// A column or row of a frame in its base: between two pixels (times three, for their colours), and
+/// how far towards the second.
+struct BasePlace {
+  int first;
+  int second;
+  float share;
+};
+
 /// Joins a prediction with the base that the dependent sent: per frequency band and place, each
 /// counts by what is known of its error.
 ///
@@ -52,6 +60,7 @@ class BaseFusion {
   cv::Mat mixed_;              // CV_32FC4, a row
   cv::Mat agreement_[3];       // CV_32FC1: variances of prediction and estimate, covariance
   cv::Mat smoothed_;
+  std::vector<BasePlace> columns_, rows_;
   std::vector<float> sample_;
 };
 

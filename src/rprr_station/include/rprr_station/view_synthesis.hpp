@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
@@ -61,7 +63,9 @@ class ViewSynthesizer {
   WarpedDepth warped_;
   cv::Mat shifts_;                                      // empty: none
   cv::Mat a_brightness_, brightness_, valid_, wanted_;  // of a quarter of the size
-  cv::Mat rows_;                                        // CV_32FC1, a few rows of numbers
+  std::vector<std::uint16_t> sums_;
+  cv::Mat places_;  // CV_32SC1, of a row
+  cv::Mat rows_;    // CV_32FC1, a few rows of numbers
 };
 
 }  // namespace rprr
