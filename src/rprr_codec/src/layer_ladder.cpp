@@ -41,7 +41,7 @@ constexpr std::array<Rung, 29> kFewBlocks{
      {1, 100, kNone, 100}}};
 
 constexpr std::array<int, 14> kMapDetail{0, 2, 5, 9, 14, 20, 28, 36, 45, 55, 65, 75, 88, 100};
-constexpr int kMapReduction = 16;
+constexpr int kMapReduction = 8;
 constexpr int kMapBase = 20;
 
 // Qualities of the same error: WebP's, and those of another codec.

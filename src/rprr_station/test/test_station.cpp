@@ -137,6 +137,48 @@ TEST_F(StationTest, SparseFrameIsReceivedBlocksOverThePrediction) {
   EXPECT_NEAR(frame.share_received + frame.share_predicted, 1.0, 1e-9);
 }
 
+// A prediction in another light, a base in the right one, received blocks in between.
+TEST_F(StationTest, TheBaseGivesThePredictionItsLightAndLeavesReceivedBlocksAlone) {
+  receive("a", 100, whole_frame(60));
+  EncodedFrame sparse = sparse_frame(100);
+  sparse.base_codec = "raw";
+  sparse.base_reduction = 4;
+  sparse.base_noise = 1.0f;
+  sparse.base = raw(cv::Mat(19, 25, CV_8UC3, cv::Scalar(90, 100, 200)));
+  const StationOutput output = receive("b", 200, sparse);
+  ASSERT_EQ(output.frames.size(), 1u);
+  const RebuiltFrame& frame = output.frames[0];
+  const BlockMask mask = some_blocks();
+  for (int block = 0; block < mask.grid().count(); ++block) {
+    const cv::Rect rect = mask.grid().rect(block);
+    const int blue = frame.bgr(rect).at<cv::Vec3b>(0, 0)[0];
+    if (mask[block]) {
+      EXPECT_EQ(blue, 50) << "received, not altered";
+    } else {
+      EXPECT_NEAR(blue, 90, 1);
+    }
+    EXPECT_EQ(frame.provenance(rect).at<std::uint8_t>(0, 0), mask[block] ? kReceived : kPredicted);
+  }
+  EXPECT_EQ(frame.share_base, 0.0);
+}
+
+TEST_F(StationTest, WithoutDetailAllColourIsPredictionAndBase) {
+  receive("a", 100, whole_frame(60));
+  EncodedFrame sparse = sparse_frame(100);
+  sparse.colour.clear();
+  sparse.base_codec = "raw";
+  sparse.base_reduction = 1;
+  sparse.base_noise = 1.0f;
+  sparse.base = raw(plain(90));
+  const StationOutput output = receive("b", 200, sparse);
+  ASSERT_EQ(output.frames.size(), 1u);
+  const RebuiltFrame& frame = output.frames[0];
+  EXPECT_LE(cv::norm(frame.bgr, plain(90), cv::NORM_INF), 1);
+  EXPECT_EQ(cv::countNonZero(frame.provenance >= kReceivedColour), 0);
+  const cv::Rect sent = some_blocks().grid().rect(5);
+  EXPECT_EQ(cv::norm(frame.depth.counts(sent), noisy_plane(2).counts(sent), cv::NORM_INF), 0);
+}
+
 TEST_F(StationTest, EveryByteIsCountedOnce) {
   receive("a", 100, whole_frame());
   const Bytes bytes = serialise(sparse_frame(100));

@@ -44,7 +44,11 @@ class BaseFusion {
     cv::Mat share;       // CV_32FC1, likewise: how much of the difference counts
   };
 
+  using Float4 = float __attribute__((vector_size(16)));
+
   void take_base_where_unknown(const BaseImage& base, PredictedView& view);
+  void measure_offsets(const BaseImage& base, const PredictedView& view);
+  Float4 sample_base(const BaseImage& base, int u, int v) const;
   void compare(const BaseImage& base, std::size_t base_level, std::size_t coarsest,
                const cv::Mat& bgr);
   void join(std::size_t base_level, std::size_t coarsest, const BaseImage& base);
@@ -61,6 +65,7 @@ class BaseFusion {
   cv::Mat agreement_[3];       // CV_32FC1: variances of prediction and estimate, covariance
   cv::Mat smoothed_;
   std::vector<BasePlace> columns_, rows_;
+  std::vector<cv::Mat> offsets_ = std::vector<cv::Mat>(1);  // CV_32FC4, each of half the size
   std::vector<float> sample_;
 };
 

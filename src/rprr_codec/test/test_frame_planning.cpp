@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How FrameEncoder chooses its layers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rprr_codec/frame_codec.hpp"
+#include "synthetic.hpp"
+
+namespace rprr {
+namespace {
+
+constexpr int kWidth = 324;
+constexpr int kHeight = 242;
+
+class FramePlan : public ::testing::Test {
+ protected:
+  FramePlan()
+      : depth_(synthetic::kinect_like(kWidth, kHeight)),
+        bgr_(synthetic::colourful(kWidth, kHeight)),
+        mask_(synthetic::some_blocks(BlockGrid(kWidth, kHeight), 0.3)) {}
+
+  EncodedFrame sparse_frame() const {
+    EncodedFrame frame;
+    frame.camera = {kWidth, kHeight, 300.0, 300.0, 160.0, 120.0};
+    frame.sparse = true;
+    frame.reference = "eyebug_a";
+    frame.mask = mask_;
+    frame.depth_mask = BlockMask(mask_.grid());
+    for (int block = 0; block < mask_.grid().count(); block += 3) {
+      frame.depth_mask.set(block, mask_[block]);
+    }
+    return frame;
+  }
+  EncodedFrame encoded(FrameEncoder& encoder) const {
+    EncodedFrame frame = sparse_frame();
+    const Result<bool> done = encoder.encode(depth_, bgr_, frame);
+    EXPECT_TRUE(done) << done.reason();
+    return frame;
+  }
+  EncodedFrame encoded(const FrameCodecOptions& options) const {
+    Result<FrameEncoder> encoder = FrameEncoder::create(options);
+    EXPECT_TRUE(encoder) << encoder.reason();
+    return encoder ? encoded(*encoder) : EncodedFrame{};
+  }
+
+  DepthFrame depth_;
+  cv::Mat bgr_;
+  BlockMask mask_;
+};
+
+class FramePlanning : public FramePlan, public ::testing::WithParamInterface<Objective> {
+ protected:
+  static FrameCodecOptions options() {
+    FrameCodecOptions options;
+    options.colour_codec = "webp";
+    options.colour_quality = 40;
+    options.view_quality = 20;
+    options.objective = GetParam();
+    return options;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Objectives, FramePlanning,
+                         ::testing::Values(Objective::kMap, Objective::kView));
+
+TEST_P(FramePlanning, WhatIsChosenDecodes) {
+  for (const std::string& codec : colour_codecs()) {
+    FrameCodecOptions options = this->options();
+    options.colour_codec = codec;
+    options.colour_quality = like_webp(*colour_codec_info(codec), 40);
+    options.view_quality = like_webp(*colour_codec_info(codec), 20);
+    const Result<EncodedFrame> parsed = parse_encoded_frame(serialise(encoded(options)));
+    ASSERT_TRUE(parsed) << parsed.reason();
+    FrameDecoder decoder(make_local_colour_decoder());
+    const Result<DecodedFrame> decoded = decoder.decode(*parsed);
+    ASSERT_TRUE(decoded) << codec << ": " << decoded.reason();
+    EXPECT_FALSE(decoded->base.empty()) << codec;
+    EXPECT_TRUE(synthetic::same(decoded->depth.counts,
+                                synthetic::only(depth_.counts, sparse_frame().depth_mask)))
+        << "depth is lossless whatever becomes of the colour";
+  }
+}
+
+TEST_P(FramePlanning, ABudgetIsKeptAndUsed) {
+  std::size_t last = 0;
+  for (const std::size_t budget : {3000, 3500, 4500, 6000, 9000}) {
+    FrameCodecOptions options = this->options();
+    options.byte_budget = budget;
+    const std::size_t bytes = serialise(encoded(options)).size();
+    EXPECT_LE(bytes, budget);
+    EXPECT_GE(bytes, last) << "more bytes are never worse used";
+    last = bytes;
+  }
+}
+
+TEST_P(FramePlanning, WithoutRoomTheLeastIsSent) {
+  FrameCodecOptions options = this->options();
+  options.byte_budget = 1;
+  const EncodedFrame frame = encoded(options);
+  options.byte_budget = 3000;
+  EXPECT_LE(frame.base.size() + frame.colour.size(),
+            encoded(options).base.size() + encoded(options).colour.size());
+  EXPECT_FALSE(frame.base.empty());
+}
+
+TEST_P(FramePlanning, TheSearchDoesNotDependOnWhereItBegins) {
+  FrameCodecOptions options = this->options();
+  options.byte_budget = 4500;
+  Result<FrameEncoder> encoder = FrameEncoder::create(options);
+  ASSERT_TRUE(encoder);
+  const Bytes cold = serialise(encoded(*encoder));
+  const Bytes warm = serialise(encoded(*encoder));
+  EXPECT_NEAR(static_cast<double>(cold.size()), static_cast<double>(warm.size()), 12.0)
+      << "but for the times that the report states";
+}
+
+TEST_P(FramePlanning, ATargetTakesNoMoreThanItNeeds) {
+  std::size_t last = 0;
+  for (const double target : {18.0, 22.0, 26.0, 99.0}) {
+    FrameCodecOptions options = this->options();
+    options.target_psnr = target;
+    const EncodedFrame frame = encoded(options);
+    const std::size_t bytes = frame.base.size() + frame.colour.size();
+    EXPECT_GE(bytes, last);
+    last = bytes;
+  }
+}
+
+TEST_P(FramePlanning, TheNoiseOfTheBaseIsWhatItsDecoderSees) {
+  const EncodedFrame frame = encoded(options());
+  FrameDecoder decoder(make_local_colour_decoder());
+  const Result<cv::Mat> base = decoder.decode_base(frame);
+  ASSERT_TRUE(base) << base.reason();
+  cv::Mat truth;
+  reduce_image(bgr_, frame.base_reduction, truth);
+  const double rms =
+      cv::norm(truth, *base, cv::NORM_L2) / std::sqrt(3.0 * static_cast<double>(truth.total()));
+  if (frame.colour.empty()) {
+    EXPECT_NEAR(frame.base_noise, rms, 0.02);
+  } else {
+    EXPECT_LE(frame.base_noise, 1.2 * rms) << "blocks of the detail do not count";
+  }
+}
+
+TEST_F(FramePlan, WithoutDetailOnlyBlocksWithDepthAreNamed) {
+  FrameCodecOptions options;
+  options.colour_codec = "webp";
+  options.objective = Objective::kView;
+  options.view_quality = 90;
+  const EncodedFrame frame = encoded(options);
+  EXPECT_TRUE(frame.colour.empty());
+  EXPECT_EQ(frame.mask, sparse_frame().depth_mask);
+}
+
+TEST_F(FramePlan, AMaskOfNoBlockStillHasItsBase) {
+  FrameCodecOptions options;
+  options.colour_codec = "webp";
+  options.objective = Objective::kView;
+  Result<FrameEncoder> encoder = FrameEncoder::create(options);
+  ASSERT_TRUE(encoder);
+  EncodedFrame frame = sparse_frame();
+  frame.mask = frame.depth_mask = BlockMask(mask_.grid());
+  ASSERT_TRUE(encoder->encode(depth_, bgr_, frame));
+  const Result<EncodedFrame> parsed = parse_encoded_frame(serialise(frame));
+  ASSERT_TRUE(parsed) << parsed.reason();
+  FrameDecoder decoder(make_local_colour_decoder());
+  const Result<DecodedFrame> decoded = decoder.decode(*parsed);
+  ASSERT_TRUE(decoded) << decoded.reason();
+  EXPECT_FALSE(decoded->has_detail);
+  EXPECT_FALSE(decoded->base.empty());
+}
+
+}  // namespace
+}  // namespace rprr

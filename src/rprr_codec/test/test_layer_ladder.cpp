@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_codec/layer_ladder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "rprr_codec/encoded_frame.hpp"
+
+namespace rprr {
+namespace {
+
+LayerLadder ladder(Objective objective, bool few, const std::string& codec, int usual) {
+  const ColourCodecInfo info = *colour_codec_info(codec);
+  return LayerLadder(objective, few, info, info, usual);
+}
+
+TEST(LayerLadder, EveryRungIsOfItsCodecsScale) {
+  for (const std::string& codec : colour_codecs()) {
+    const ColourCodecInfo info = *colour_codec_info(codec);
+    for (const Objective objective : {Objective::kMap, Objective::kView}) {
+      for (const bool few : {false, true}) {
+        const LayerLadder rungs = ladder(objective, few, codec, info.best);
+        ASSERT_GT(rungs.rungs(), 5);
+        for (int i = 0; i < rungs.rungs(); ++i) {
+          const LayerSettings& at = rungs.at(i);
+          EXPECT_TRUE(is_base_reduction(at.base_reduction));
+          EXPECT_TRUE(info.has_quality(at.base_quality));
+          EXPECT_TRUE(info.has_quality(at.detail_quality));
+        }
+      }
+    }
+  }
+}
+
+// Each rung is at least as fine in something as the one below.
+TEST(LayerLadder, RungsOfTheViewRise) {
+  for (const bool few : {false, true}) {
+    const LayerLadder rungs = ladder(Objective::kView, few, "webp", 20);
+    for (int i = 1; i < rungs.rungs(); ++i) {
+      const LayerSettings& below = rungs.at(i - 1);
+      const LayerSettings& at = rungs.at(i);
+      EXPECT_TRUE(
+          at.base_reduction < below.base_reduction ||
+          (at.base_reduction == below.base_reduction && at.base_quality > below.base_quality) ||
+          (at.detail && !below.detail) || at.detail_quality > below.detail_quality)
+          << i;
+    }
+    EXPECT_EQ(rungs.at(rungs.rungs() - 1).base_reduction, 1);
+    EXPECT_FALSE(rungs.at(rungs.rungs() - 1).detail) << "the whole image at one quality";
+  }
+}
+
+TEST(LayerLadder, AMapHasItsDetailAtTheUsualQualityOverTheLeastBase) {
+  for (int quality = 0; quality <= 100; quality += 10) {
+    const LayerLadder rungs = ladder(Objective::kMap, false, "webp", quality);
+    const LayerSettings& usual = rungs.at(rungs.usual());
+    EXPECT_TRUE(usual.detail);
+    EXPECT_LE(std::abs(usual.detail_quality - quality), 7);
+    EXPECT_GE(usual.base_reduction, 8);
+  }
+}
+
+TEST(LayerLadder, TheUsualRungRisesWithTheQuality) {
+  int last = -1;
+  for (int quality = 0; quality <= 100; ++quality) {
+    const int usual = ladder(Objective::kView, false, "webp", quality).usual();
+    EXPECT_GE(usual, last) << quality;
+    last = usual;
+  }
+  EXPECT_EQ(last + 1, ladder(Objective::kView, false, "webp", 100).rungs());
+}
+
+TEST(LayerLadder, QualitiesOfOtherCodecsGoBothWays) {
+  for (const std::string& codec : colour_codecs()) {
+    const ColourCodecInfo info = *colour_codec_info(codec);
+    for (const double webp : {0.0, 10.0, 40.0, 75.0, 100.0}) {
+      const int quality = like_webp(info, webp);
+      EXPECT_TRUE(info.has_quality(quality)) << codec;
+      EXPECT_NEAR(as_webp(info, quality), webp, codec == "pgf" ? 15.0 : 2.0) << codec;
+    }
+  }
+}
+
+TEST(LayerLadder, Names) {
+  EXPECT_EQ(objective_of("map"), Objective::kMap);
+  EXPECT_EQ(objective_of("view"), Objective::kView);
+  EXPECT_EQ(objective_of("fixed"), Objective::kFixed);
+  EXPECT_FALSE(objective_of("Map"));
+  EXPECT_FALSE(objective_of(""));
+}
+
+}  // namespace
+}  // namespace rprr
