@@ -10,7 +10,7 @@
 namespace rprr::dhcm {
 
 /// How the pixels are written.
-enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kGroups = 2 };
+enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kGroups = 2, kStrips = 3 };
 
 /// What stands before the pixels (doc/dhcm.md).
 struct Header {
@@ -23,7 +23,7 @@ struct Header {
   double unit = 0.001;
 };
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 /// Writes the header with room for the length of the body, which is appended by the caller.
 void begin(const Header& header, Bytes& out);

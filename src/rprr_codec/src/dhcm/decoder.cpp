@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
 
@@ -6,6 +7,7 @@
 #include "dhcm/float_image.hpp"
 #include "dhcm/groups.hpp"
 #include "dhcm/scan.hpp"
+#include "dhcm/strip_reader.hpp"
 #include "dhcm/tables.hpp"
 #include "dhcm/values.hpp"
 #include "rprr_codec/dhcm.hpp"
@@ -220,6 +222,7 @@ struct DhcmDecoder::Buffers {
   std::vector<dhcm::DecodeTable> tables;
   std::vector<dhcm::JointTable> joint;
   std::vector<std::uint16_t> row;
+  dhcm::StripTables strip_tables;
 
   Result<DepthFrame> decode(const dhcm::Opened& opened, const BlockMask* mask,
                             std::size_t max_pixels);
@@ -228,6 +231,8 @@ struct DhcmDecoder::Buffers {
   bool decode_body(const dhcm::Opened& opened, const BlockMask* mask, cv::Mat& counts);
   bool decode_events(dhcm::BitReader& bits, const BlockMask* mask, bool ranked, cv::Mat& counts);
   bool decode_groups(dhcm::BitReader& bits, const BlockMask* mask, bool ranked, cv::Mat& counts);
+  bool decode_strips(ByteView body, const BlockMask* mask, cv::Mat& counts);
+  bool read_values(dhcm::BitReader& bits, bool ranked);
   // What ranks stand for, from rank 0; without a value table nothing.
   std::vector<std::uint16_t> lookup;
 };
@@ -314,6 +319,45 @@ bool DhcmDecoder::Buffers::decode_groups(dhcm::BitReader& bits, const BlockMask*
   return true;
 }
 
+bool DhcmDecoder::Buffers::decode_strips(ByteView body, const BlockMask* mask, cv::Mat& counts) {
+  ByteReader sizes(body);
+  std::array<std::size_t, dhcm::kStripStreams> lengths{};
+  std::size_t all = 0;
+  for (std::size_t& length : lengths) all += length = sizes.get<std::uint32_t>();
+  if (!sizes.ok() || all > sizes.left()) return false;
+  dhcm::BitReader head(sizes.get_view(sizes.left() - all));
+  const bool ranked = head.get(1) != 0;
+  if (!read_values(head, ranked) || !strip_tables.read(head) || !head.finished()) return false;
+  dhcm::StripStreams streams;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    streams[s] = dhcm::BitReader(sizes.get_view(lengths[s]));
+  }
+  const BlockGrid grid(counts.cols, counts.rows);
+  const auto largest = static_cast<std::uint16_t>(ranked ? values.values().size() : 65535);
+  dhcm::StripReader reader(grid, mask, largest);
+  for (int strip = 0; strip < grid.rows; ++strip) {
+    const dhcm::StripTarget target = {counts.ptr<std::uint16_t>(strip * dhcm::kStripRows),
+                                      counts.step1(), ranked ? lookup.data() : nullptr};
+    if (!reader.strip(strip, strip_tables, streams, target)) return false;
+    for (const dhcm::BitReader& stream : streams) {
+      if (stream.overrun()) return false;
+    }
+  }
+  return std::all_of(streams.begin(), streams.end(),
+                     [](const dhcm::BitReader& stream) { return stream.finished(); });
+}
+
+bool DhcmDecoder::Buffers::read_values(dhcm::BitReader& bits, bool ranked) {
+  if (!ranked) return true;
+  if (!values.read(bits)) return false;
+  lookup.assign(1, 0);
+  lookup.insert(lookup.end(), values.values().begin(), values.values().end());
+  // A guess lies between two ranks that were checked, as signed numbers; where some are negative
+  // that is any number at all.
+  if (lookup.size() > 32768) lookup.resize(65536, 0);
+  return true;
+}
+
 bool DhcmDecoder::Buffers::decode_body(const dhcm::Opened& opened, const BlockMask* mask,
                                        cv::Mat& counts) {
   dhcm::Segments segments(BlockGrid(counts.cols, counts.rows), mask);
@@ -321,16 +365,10 @@ bool DhcmDecoder::Buffers::decode_body(const dhcm::Opened& opened, const BlockMa
     return dhcm::read_stored(opened.body, segments, counts);
   }
   if (segments.pixels() == 0) return opened.body.size == 0;
+  if (opened.header.body == dhcm::Body::kStrips) return decode_strips(opened.body, mask, counts);
   dhcm::BitReader bits(opened.body);
   const bool ranked = bits.get(1) != 0;
-  if (ranked && !values.read(bits)) return false;
-  if (ranked) {
-    lookup.assign(1, 0);
-    lookup.insert(lookup.end(), values.values().begin(), values.values().end());
-    // A guess lies between two ranks that were checked, as signed numbers; where some are negative
-    // that is any number at all.
-    if (lookup.size() > 32768) lookup.resize(65536, 0);
-  }
+  if (!read_values(bits, ranked)) return false;
   const bool good = opened.header.body == dhcm::Body::kGroups
                         ? decode_groups(bits, mask, ranked, counts)
                         : decode_events(bits, mask, ranked, counts);

@@ -7,6 +7,7 @@
 #include "dhcm/events.hpp"
 #include "dhcm/float_image.hpp"
 #include "dhcm/groups.hpp"
+#include "dhcm/strips.hpp"
 #include "dhcm/values.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/camera.hpp"
@@ -43,6 +44,7 @@ struct DhcmEncoder::Buffers {
   dhcm::Histograms histograms;
   dhcm::EncodeTables tables;
   dhcm::GroupCoder groups;
+  dhcm::StripCoder strips;
   std::array<dhcm::Histogram, dhcm::kGroupContexts> group_histograms;
   std::array<dhcm::EncodeTable, dhcm::kGroupContexts> group_tables;
 
@@ -51,9 +53,11 @@ struct DhcmEncoder::Buffers {
 
  private:
   void collect_groups(const DepthFrame& frame, const BlockMask* mask, bool ranked);
+  void collect_strips(const DepthFrame& frame, const BlockMask* mask, bool ranked);
+  Bytes write_strips(const dhcm::Header& header, bool ranked);
   Bytes write_events(const dhcm::Header& header, bool ranked);
   Bytes write_groups(const dhcm::Header& header, bool ranked);
-  void take_row(const DepthFrame& frame, int v, bool ranked);
+  void take_row(const DepthFrame& frame, int v, bool ranked, std::uint16_t* to) const;
   bool rank_values(const DepthFrame& frame, dhcm::Segments& segments);
   void collect_events(const DepthFrame& frame, dhcm::Segments& segments, bool ranked,
                       const dhcm::DirectContexts& direct);
@@ -78,14 +82,15 @@ bool DhcmEncoder::Buffers::rank_values(const DepthFrame& frame, dhcm::Segments& 
 }
 
 // Ranks or readings of a row; the buffer is longer than that.
-void DhcmEncoder::Buffers::take_row(const DepthFrame& frame, int v, bool ranked) {
+void DhcmEncoder::Buffers::take_row(const DepthFrame& frame, int v, bool ranked,
+                                    std::uint16_t* to) const {
   const auto* in = frame.counts.ptr<std::uint16_t>(v);
   const auto width = static_cast<std::size_t>(frame.width());
   if (ranked) {
-    std::transform(in, in + width, row.begin(),
+    std::transform(in, in + width, to,
                    [this](std::uint16_t value) { return rank_of[value]; });
   } else {
-    std::copy(in, in + width, row.begin());
+    std::copy(in, in + width, to);
   }
 }
 
@@ -94,7 +99,7 @@ void DhcmEncoder::Buffers::collect_events(const DepthFrame& frame, dhcm::Segment
   row.assign(static_cast<std::size_t>(frame.width() + dhcm::kLanes), 0);
   coder.begin(frame.width(), direct);
   for (int v = 0; v < frame.height(); ++v) {
-    take_row(frame, v, ranked);
+    take_row(frame, v, ranked, row.data());
     coder.row(row.data(), segments.of_row(v));
   }
   coder.finish(histograms);
@@ -125,8 +130,24 @@ void DhcmEncoder::Buffers::collect_groups(const DepthFrame& frame, const BlockMa
   row.assign(static_cast<std::size_t>(grid.columns) * dhcm::kLanes, 0);
   groups.begin(grid, mask);
   for (int v = 0; v < frame.height(); ++v) {
-    take_row(frame, v, ranked);
+    take_row(frame, v, ranked, row.data());
     groups.row(row.data(), v);
+  }
+}
+
+void DhcmEncoder::Buffers::collect_strips(const DepthFrame& frame, const BlockMask* mask,
+                                          bool ranked) {
+  const BlockGrid grid(frame.width(), frame.height());
+  const std::size_t stride = static_cast<std::size_t>(grid.columns) * dhcm::kLanes;
+  row.assign(stride * dhcm::kStripRows, 0);
+  strips.begin(grid, mask);
+  for (int strip = 0; strip < grid.rows; ++strip) {
+    const int first = strip * dhcm::kStripRows;
+    const int rows = std::min(dhcm::kStripRows, frame.height() - first);
+    for (int k = 0; k < rows; ++k) {
+      take_row(frame, first + k, ranked, row.data() + static_cast<std::size_t>(k) * stride);
+    }
+    strips.strip(row.data(), stride, strip);
   }
 }
 
@@ -134,7 +155,7 @@ Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mas
                                    DhcmPixels pixels) {
   dhcm::Segments segments(BlockGrid(frame.width(), frame.height()), mask);
   const bool fast = mode == DhcmMode::kFast;
-  const dhcm::Header header = {fast ? dhcm::Body::kGroups : dhcm::Body::kEvents,
+  const dhcm::Header header = {fast ? dhcm::Body::kGroups : mode == DhcmMode::kDefault ? dhcm::Body::kStrips : dhcm::Body::kEvents,
                                mode,
                                pixels,
                                mask != nullptr,
@@ -146,6 +167,9 @@ Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mas
   if (fast) {
     collect_groups(frame, mask, ranked);
     out = write_groups(header, ranked);
+  } else if (mode == DhcmMode::kDefault) {
+    collect_strips(frame, mask, ranked);
+    out = write_strips(header, ranked);
   } else {
     collect_events(frame, segments, ranked, {});
     out = write_events(header, ranked);
@@ -170,6 +194,27 @@ Bytes DhcmEncoder::Buffers::write_events(const dhcm::Header& header, bool ranked
   dhcm::write_tables(histograms.data(), dhcm::kTables, bits, tables.data());
   dhcm::write_events(coder, tables, bits);
   bits.finish();
+  return out;
+}
+
+Bytes DhcmEncoder::Buffers::write_strips(const dhcm::Header& header, bool ranked) {
+  Bytes out;
+  dhcm::begin(header, out);
+  if (strips.empty()) return out;
+  const std::size_t sizes_at = out.size();
+  out.resize(sizes_at + 4 * dhcm::kStripStreams);
+  dhcm::BitWriter bits(out);
+  bits.put(ranked ? 1 : 0, 1);
+  if (ranked) values.write(bits);
+  strips.write(bits);
+  bits.finish();
+  for (std::size_t s = 0; s < dhcm::kStripStreams; ++s) {
+    const ByteView stream = strips.stream(s);
+    for (std::size_t i = 0; i < 4; ++i) {
+      out[sizes_at + 4 * s + i] = static_cast<std::uint8_t>(stream.size >> (8 * i));
+    }
+    out.insert(out.end(), stream.data, stream.data + stream.size);
+  }
   return out;
 }
 

@@ -37,12 +37,6 @@ Lanes lanes_of_bits(std::uint8_t bits) {
   const Lanes places = {1, 2, 4, 8, 16, 32, 64, 128};
   return (all(bits) & places) != 0;
 }
-std::uint8_t bits_of_lanes(Lanes mask) {
-  std::uint8_t bytes[kLanes];
-  store_bytes(mask & all(1), bytes);
-  return static_cast<std::uint8_t>((load64(bytes) * 0x0102040810204080u) >> 56);
-}
-
 // The bits that are set in any lane.
 unsigned any_of_lanes(Lanes lanes) {
   std::uint64_t halves[2];

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "dhcm/bit_io.hpp"
+
 namespace rprr::dhcm {
 
 /// Eight 16-bit lanes in the compilers' portable vector type, which becomes SSE2, NEON or plain
@@ -42,8 +44,24 @@ inline Lanes min(Lanes a, Lanes b) {
 inline Lanes max(Lanes a, Lanes b) {
   return a > b ? a : b;
 }
+/// The lanes, each one further up, and first in the lowest.
+inline Lanes shift_in(std::int16_t first, Lanes lanes) {
+  const Lanes low = {first, 0, 0, 0, 0, 0, 0, 0};
+#if defined(__clang__)
+  return low | __builtin_shufflevector(lanes, Lanes{}, 8, 0, 1, 2, 3, 4, 5, 6);
+#else
+  return low | __builtin_shuffle(lanes, Lanes{}, Lanes{8, 0, 1, 2, 3, 4, 5, 6});
+#endif
+}
 inline Lanes select(Lanes mask, Lanes yes, Lanes no) {
   return (mask & yes) | (~mask & no);
+}
+
+/// Lanes of 0 or -1 as bits, the first one lowest.
+inline std::uint8_t bits_of_lanes(Lanes mask) {
+  std::uint8_t bytes[kLanes];
+  store_bytes(mask & all(1), bytes);
+  return static_cast<std::uint8_t>((load64(bytes) * 0x0102040810204080u) >> 56);
 }
 
 }  // namespace rprr::dhcm

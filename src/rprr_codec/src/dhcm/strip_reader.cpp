@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dhcm/strip_reader.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rprr::dhcm {
+namespace {
+
+constexpr int kSetWord = kLongestWord<kSetSymbols>;
+
+bool read_sets(BitReader& bits, StripTables::Sets& sets) {
+  SetLengths lengths;
+  SetDecodeTable table;
+  if (!read_lengths(bits, lengths) || !table.build(lengths)) return false;
+  std::transform(table.entries.begin(), table.entries.end(), sets.begin(),
+                 [](const SetDecodeTable::Entry& entry) {
+                   return static_cast<std::uint16_t>(entry.symbol << 4 | entry.length);
+                 });
+  return true;
+}
+
+// Eight times the places of a set's bits.
+struct SteppedPlaces {
+  std::uint8_t at[kLanes];
+};
+constexpr std::array<SteppedPlaces, 256> make_stepped() {
+  std::array<SteppedPlaces, 256> all{};
+  for (std::size_t set = 0; set < 256; ++set) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      all[set].at[i] = static_cast<std::uint8_t>(8 * kPlaces[set].at[i]);
+    }
+  }
+  return all;
+}
+constexpr std::array<SteppedPlaces, 256> kStepped = make_stepped();
+
+// A row's share of reading groups.
+struct RowReader {
+  BitReader bits;
+  std::uint16_t* to;  // pixels that are not as guessed
+  int row;
+  std::uint8_t* holes;        // of this row
+  const std::uint8_t* above;  // and of the one above
+};
+
+inline std::uint16_t set_entry(const StripTables::Sets& table, BitReader& bits) {
+  const std::uint16_t entry = table[bits.peek(kSetWord)];
+  bits.skip(entry & 15);
+  return entry;
+}
+
+// False if a symbol means nothing.
+inline bool read_group(const StripTables& tables, std::size_t group, std::size_t begin,
+                       RowReader& row) {
+  row.bits.refill();
+  std::uint8_t holes = row.above[group];
+  const StripTables::Sets& table = tables.groups[hole_class(holes)];
+  std::uint16_t entry = set_entry(table, row.bits);
+  if (entry >> 4 == kHolesChange) {
+    holes = static_cast<std::uint8_t>(holes ^ set_entry(tables.changes, row.bits) >> 4);
+    entry = set_entry(table, row.bits);
+    if (entry >> 4 == kHolesChange) return false;
+  }
+  row.holes[group] = holes;
+  const auto set = static_cast<std::size_t>(entry >> 4);
+  const Lanes places = load_bytes(kStepped[set].at) +
+                       all(static_cast<int>((group - begin) * 64) + row.row);
+  std::memcpy(row.to, &places, sizeof(places));
+  row.to += kSizes[set];
+  return true;
+}
+
+}  // namespace
+
+bool StripTables::read(BitReader& bits) {
+  for (Sets& sets : groups) {
+    if (!read_sets(bits, sets)) return false;
+  }
+  if (!read_sets(bits, changes)) return false;
+  CodeLengths lengths;
+  DecodeTable table;
+  if (!read_lengths(bits, lengths) || !table.build(lengths)) return false;
+  std::transform(table.entries.begin(), table.entries.end(), residuals.begin(),
+                 [](const DecodeTable::Entry& entry) -> Residual {
+                   if (entry.symbol >= kResidualSymbols) return {0, 0, entry.length, entry.length, 1};
+                   const int extra = extra_bits_of(entry.symbol);
+                   return {static_cast<std::uint16_t>(base_of(entry.symbol)),
+                           static_cast<std::uint16_t>((1u << extra) - 1u), entry.length,
+                           static_cast<std::uint8_t>(entry.length + extra), 0};
+                 });
+  return true;
+}
+
+StripReader::StripReader(const BlockGrid& grid, const BlockMask* mask, std::uint16_t largest)
+    : grid_(grid), mask_(mask), largest_(largest) {
+  surface_.reset(grid.columns);
+  const auto groups = static_cast<std::size_t>(grid.columns);
+  // Four rows, and what is written beyond the last one.
+  for (auto& places : missed_) places.resize((groups * kStripRows / kStripSides + 1) * kLanes);
+  for (auto& row : holes_) row.resize(groups);
+  skewed_.resize((groups * kLanes + kStripRows) * kStripRows);
+  skewed_holes_.resize(skewed_.size());
+}
+
+bool StripReader::strip(int strip, const StripTables& tables, StripStreams& streams,
+                        const StripTarget& target) {
+  const int rows = std::min(kStripRows, grid_.height - strip * kStripRows);
+  list_segments(grid_, mask_, strip, segments_);
+  for (const StripSegment& segment : segments_) {
+    surface_.prepare(grid_, mask_, strip, segment);
+    missed_count_.fill(0);
+    const auto length = static_cast<std::size_t>(segment.end - segment.begin + 1) * 64;
+    std::fill_n(skewed_.begin(), length, std::int16_t{0});
+    std::fill_n(skewed_holes_.begin(), length, std::int16_t{0});
+    for (int k = 0; k < rows; k += 2) read_rows(segment, k, k + 1 < rows, tables, streams);
+    read_residuals(tables, streams);
+    place_holes(segment, rows);
+    rebuild(segment);
+    if (!good_) return false;
+    write(segment, rows, target);
+  }
+  return true;
+}
+
+// Two rows at once where there are two: their streams do not wait for each other.
+void StripReader::read_rows(const StripSegment& segment, int row, bool pair,
+                            const StripTables& tables, StripStreams& streams) {
+  const auto k = static_cast<std::size_t>(row);
+  const std::uint8_t* const above = k == 0 ? surface_.holes.data() : holes_[k - 1].data();
+  RowReader even = {streams[0], missed_[0].data() + missed_count_[0], row, holes_[k].data(), above};
+  const auto begin = static_cast<std::size_t>(segment.begin);
+  const auto end = static_cast<std::size_t>(segment.end);
+  bool good = true;
+  if (pair) {
+    RowReader odd = {streams[1], missed_[1].data() + missed_count_[1], row + 1,
+                     holes_[k + 1].data(), holes_[k].data()};
+    for (std::size_t g = begin; g < end; ++g) {
+      good &= read_group(tables, g, begin, even);
+      good &= read_group(tables, g, begin, odd);
+    }
+    streams[1] = odd.bits;
+    missed_count_[1] = static_cast<std::size_t>(odd.to - missed_[1].data());
+  } else {
+    for (std::size_t g = begin; g < end; ++g) good &= read_group(tables, g, begin, even);
+  }
+  streams[0] = even.bits;
+  missed_count_[0] = static_cast<std::size_t>(even.to - missed_[0].data());
+  good_ = good_ && good;
+}
+
+namespace {
+
+inline unsigned read_residual(const StripTables& tables, BitReader& bits, std::size_t place,
+                              std::int16_t* skewed) {
+  bits.refill();
+  const StripTables::Residual& entry = tables.residuals[bits.peek(kMaxCodeLength)];
+  const std::uint32_t number =
+      entry.base + (bits.peek(kMaxCodeLength + 16) >> entry.length & entry.extra);
+  bits.skip(entry.bits);
+  skewed[place + (place & 7) * 8] = static_cast<std::int16_t>(unfold(number + 1));
+  return entry.bad;
+}
+
+}  // namespace
+
+void StripReader::read_residuals(const StripTables& tables, StripStreams& streams) {
+  BitReader even = streams[2];
+  BitReader odd = streams[3];
+  const std::size_t both = std::min(missed_count_[0], missed_count_[1]);
+  std::int16_t* const skewed = skewed_.data();
+  unsigned bad = 0;
+  for (std::size_t i = 0; i < both; ++i) {
+    bad |= read_residual(tables, even, missed_[0][i], skewed);
+    bad |= read_residual(tables, odd, missed_[1][i], skewed);
+  }
+  for (std::size_t i = both; i < missed_count_[0]; ++i) {
+    bad |= read_residual(tables, even, missed_[0][i], skewed);
+  }
+  for (std::size_t i = both; i < missed_count_[1]; ++i) {
+    bad |= read_residual(tables, odd, missed_[1][i], skewed);
+  }
+  streams[2] = even;
+  streams[3] = odd;
+  good_ = good_ && bad == 0;
+}
+
+void StripReader::place_holes(const StripSegment& segment, int rows) {
+  any_holes_ = false;
+  const auto begin = static_cast<std::size_t>(segment.begin);
+  for (int k = 0; k < rows; ++k) {
+    const std::vector<std::uint8_t>& row = holes_[static_cast<std::size_t>(k)];
+    for (std::size_t g = begin; g < static_cast<std::size_t>(segment.end); ++g) {
+      if (row[g] == 0) continue;
+      any_holes_ = true;
+      std::int16_t* const to =
+          skewed_holes_.data() + (g - begin) * 64 + static_cast<std::size_t>(9 * k);
+      for (int i = 0; i < kLanes; ++i) to[8 * i] = static_cast<std::int16_t>(-(row[g] >> i & 1));
+    }
+  }
+  const auto last = static_cast<std::size_t>(rows - 1);
+  std::copy(holes_[last].begin() + segment.begin, holes_[last].begin() + segment.end,
+            surface_.holes.begin() + segment.begin);
+}
+
+void StripReader::rebuild(const StripSegment& segment) {
+  using Unsigned = std::uint16_t __attribute__((vector_size(16)));
+  std::int16_t* const surface = surface_.fill.data() + segment.begin * kLanes;
+  const int columns = (segment.end - segment.begin) * kLanes;
+  const int last_top = std::min(columns, grid_.width - segment.begin * kLanes) - 1;
+  const auto largest = reinterpret_cast<Unsigned>(all(largest_));
+  const Lanes order = {0, 1, 2, 3, 4, 5, 6, 7};
+  Lanes bad = all(0);
+  Lanes x = all(0);
+  Lanes n = all(0);
+  const auto step = [&](int t, Lanes w, Lanes nw) {
+    const Lanes guess = min(max(n + (w - nw), min(w, n)), max(w, n));
+    const Lanes hole = load(skewed_holes_.data() + 8 * t);
+    x = select(hole, n, guess + load(skewed_.data() + 8 * t));
+    const Lanes seen = x & ~hole;
+    bad |= reinterpret_cast<Lanes>(reinterpret_cast<Unsigned>(seen) > largest);
+    store(seen, skewed_.data() + 8 * t);
+  };
+  for (int t = 0; t < columns + kStripRows - 1; ++t) {
+    const Lanes nw = n;
+    n = shift_in(t < columns ? surface[t] : std::int16_t{0}, x);
+    if (t < kStripRows) {
+      // A row's first pixel is predicted as the one above it.
+      const Lanes starts = order == all(t);
+      step(t, select(starts, n, x), select(starts, n, nw));
+    } else {
+      step(t, x, nw);
+    }
+    if (t == last_top) surface_.last = x[0];
+    if (t >= kStripRows - 1) surface[t - kStripRows + 1] = x[kLanes - 1];
+  }
+  if (largest_ < 32768) {
+    std::int16_t any[kLanes];
+    store(bad, any);
+    for (const std::int16_t lane : any) good_ = good_ && lane == 0;
+  }
+}
+
+void StripReader::write(const StripSegment& segment, int rows, const StripTarget& target) const {
+  const int begin = segment.begin * kLanes;
+  const int count = std::min(segment.end * kLanes, grid_.width) - begin;
+  for (int k = 0; k < rows; ++k) {
+    std::uint16_t* const out = target.first + static_cast<std::size_t>(k) * target.stride + begin;
+    const auto* const from = reinterpret_cast<const std::uint16_t*>(skewed_.data()) + 9 * k;
+    if (target.values != nullptr) {
+      for (int u = 0; u < count; ++u) out[u] = target.values[from[8 * u]];
+    } else {
+      for (int u = 0; u < count; ++u) out[u] = from[8 * u];
+    }
+  }
+}
+
+}  // namespace rprr::dhcm
