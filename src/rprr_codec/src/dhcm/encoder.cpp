@@ -66,10 +66,11 @@ struct DhcmEncoder::Buffers {
 
 bool DhcmEncoder::Buffers::rank_values(const DepthFrame& frame, dhcm::Segments& segments) {
   occurs.assign(65536, 0);
+  std::uint8_t* const marks = occurs.data();
   for (int v = 0; v < frame.height(); ++v) {
     const auto* in = frame.counts.ptr<std::uint16_t>(v);
     for (const dhcm::Segment& segment : segments.of_row(v)) {
-      for (int u = segment.begin; u < segment.end; ++u) occurs[in[u]] = 1;
+      for (int u = segment.begin; u < segment.end; ++u) marks[in[u]] = 1;
     }
   }
   values.collect(occurs);

@@ -59,9 +59,16 @@ inline Lanes select(Lanes mask, Lanes yes, Lanes no) {
 
 /// Lanes of 0 or -1 as bits, the first one lowest.
 inline std::uint8_t bits_of_lanes(Lanes mask) {
+#if defined(__SSE2__)
+  using Words = short __attribute__((vector_size(16)));
+  const auto words = reinterpret_cast<Words>(mask);
+  return static_cast<std::uint8_t>(
+      __builtin_ia32_pmovmskb128(__builtin_ia32_packsswb128(words, Words{})));
+#else
   std::uint8_t bytes[kLanes];
   store_bytes(mask & all(1), bytes);
   return static_cast<std::uint8_t>((load64(bytes) * 0x0102040810204080u) >> 56);
+#endif
 }
 
 }  // namespace rprr::dhcm

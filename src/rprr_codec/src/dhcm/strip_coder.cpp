@@ -37,11 +37,6 @@ Bits residual_bits(std::uint16_t residual, const EncodeTable& table) {
           static_cast<std::uint32_t>(word.length) + split.extra_bits};
 }
 
-std::uint8_t* room_for(Bytes& stream, std::size_t bytes) {
-  if (stream.size() < bytes + 8) stream.resize(bytes + 8);
-  return stream.data();
-}
-
 }  // namespace
 
 void StripCoder::begin(const BlockGrid& grid, const BlockMask* mask) {
@@ -136,7 +131,10 @@ void StripCoder::collect(const StripSegment& segment, Side& side) {
     }
     const std::int16_t* const from = residual_.data() + g * kLanes;
     const Places& places = kPlaces[set];
-    for (int i = 0; i < kLanes; ++i) to[i] = static_cast<std::uint16_t>(from[places.at[i]]);
+    for (int i = 0; i < 3; ++i) to[i] = static_cast<std::uint16_t>(from[places.at[i]]);
+    if (kSizes[set] > 3) {
+      for (int i = 3; i < kLanes; ++i) to[i] = static_cast<std::uint16_t>(from[places.at[i]]);
+    }
     to += kSizes[set];
   }
   side.group_count = static_cast<std::size_t>(group_to - side.groups.data());
@@ -144,11 +142,6 @@ void StripCoder::collect(const StripSegment& segment, Side& side) {
 }
 
 namespace {
-
-struct SetTables {
-  std::array<SetEncodeTable, kHoleClasses> groups;
-  SetEncodeTable changes;
-};
 
 SetEncodeTable write_set_table(const SetHistogram& histogram, BitWriter& head) {
   const SetLengths lengths = code_lengths(histogram);
@@ -158,80 +151,99 @@ SetEncodeTable write_set_table(const SetHistogram& histogram, BitWriter& head) {
 
 }  // namespace
 
-void StripCoder::write(BitWriter& head) {
-  std::array<SetHistogram, kHoleClasses + 1> sets{};
-  for (const Side& side : sides_) {
+StripCoder::GroupTables StripCoder::write_group_tables(BitWriter& head) const {
+  // One of each for a side, since the same number counted up twice in a row is slow.
+  std::array<std::array<SetHistogram, kHoleClasses + 1>, kStripSides> counts{};
+  for (std::size_t s = 0; s < kStripSides; ++s) {
+    const Side& side = sides_[s];
     for (std::size_t i = 0; i < side.group_count; ++i) {
       const std::uint16_t group = side.groups[i];
-      SetHistogram& histogram = sets[group >> kClassShift & 3u];
+      SetHistogram& histogram = counts[s][group >> kClassShift & 3u];
       ++histogram[group & 255u];
       if ((group & kChangeMark) != 0) ++histogram[kHolesChange];
     }
-    for (std::size_t i = 0; i < side.change_count; ++i) ++sets[kHoleClasses][side.changes[i]];
+    for (std::size_t i = 0; i < side.change_count; ++i) ++counts[s][kHoleClasses][side.changes[i]];
   }
-  SetTables tables;
-  for (std::size_t c = 0; c < kHoleClasses; ++c) {
-    tables.groups[c] = write_set_table(sets[c], head);
+  GroupTables tables;
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    for (std::size_t i = 0; i < kSetSymbols; ++i) counts[0][t][i] += counts[1][t][i];
+    tables[t] = write_set_table(counts[0][t], head);
   }
-  tables.changes = write_set_table(sets[kHoleClasses], head);
+  return tables;
+}
 
-  std::array<std::uint32_t, 2 * kNear> near{};
+EncodeTable StripCoder::write_residual_table(BitWriter& head) const {
+  std::array<std::array<std::uint32_t, 2 * kNear + 1>, 4> near{};
   Histogram numbers{};
   for (const Side& side : sides_) {
-    for (std::size_t i = 0; i < side.residual_count; ++i) {
+    const auto count = [&](std::size_t i, std::size_t part) {
       const std::size_t index = near_index(side.residuals[i]);
-      if (index < near.size()) {
-        ++near[index];
-      } else {
-        ++numbers[split_residual(side.residuals[i]).symbol];
-      }
+      ++near[part][std::min(index, 2 * kNear)];
+      if (index >= 2 * kNear) ++numbers[split_residual(side.residuals[i]).symbol];
+    };
+    std::size_t i = 0;
+    for (; i + 4 <= side.residual_count; i += 4) {
+      for (std::size_t part = 0; part < 4; ++part) count(i + part, part);
     }
+    for (; i < side.residual_count; ++i) count(i, 0);
   }
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i != kNear) {
-      numbers[split_residual(static_cast<std::uint16_t>(i - kNear)).symbol] += near[i];
-    }
+  for (std::size_t i = 0; i < 2 * kNear; ++i) {
+    if (i == kNear) continue;
+    numbers[split_residual(static_cast<std::uint16_t>(i - kNear)).symbol] +=
+        near[0][i] + near[1][i] + near[2][i] + near[3][i];
   }
   const CodeLengths lengths = code_lengths(numbers);
   write_lengths(lengths, head);
-  const EncodeTable number_table(lengths);
-  std::array<Bits, 2 * kNear> near_bits{};
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i != kNear) {
-      near_bits[i] = residual_bits(static_cast<std::uint16_t>(i - kNear), number_table);
-    }
-  }
+  return EncodeTable(lengths);
+}
 
+void StripCoder::write_groups(const Side& side, const GroupTables& tables, Stream& stream) {
+  PlainBitWriter bits(stream.room(side.group_count * kGroupBytes));
+  const std::uint8_t* change = side.changes.data();
+  for (std::size_t i = 0; i < side.group_count; ++i) {
+    const std::uint16_t group = side.groups[i];
+    const SetEncodeTable& table = tables[group >> kClassShift & 3u];
+    if ((group & kChangeMark) != 0) {
+      const SetEncodeTable::Word& mark = table.words[kHolesChange];
+      const SetEncodeTable::Word& word = tables[kHoleClasses].words[*change++];
+      bits.put(mark.code | std::uint32_t{word.code} << mark.length, mark.length + word.length);
+    }
+    const SetEncodeTable::Word& word = table.words[group & 255u];
+    bits.put(word.code, word.length);
+  }
+  stream.close(bits);
+}
+
+void StripCoder::write_residuals(const Side& side, const EncodeTable& table, Stream& stream) {
+  std::array<Bits, 2 * kNear> near{};
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i != kNear) near[i] = residual_bits(static_cast<std::uint16_t>(i - kNear), table);
+  }
+  const auto bits_of = [&](std::uint16_t residual) {
+    const std::size_t index = near_index(residual);
+    return index < near.size() ? near[index] : residual_bits(residual, table);
+  };
+  PlainBitWriter bits(stream.room(side.residual_count * kResidualBytes));
+  std::size_t i = 0;
+  for (; i + 2 <= side.residual_count; i += 2) {
+    const Bits first = bits_of(side.residuals[i]);
+    const Bits second = bits_of(side.residuals[i + 1]);
+    bits.put(first.value | std::uint64_t{second.value} << first.count,
+             static_cast<int>(first.count + second.count));
+  }
+  if (i < side.residual_count) {
+    const Bits one = bits_of(side.residuals[i]);
+    bits.put(one.value, static_cast<int>(one.count));
+  }
+  stream.close(bits);
+}
+
+void StripCoder::write(BitWriter& head) {
+  const GroupTables groups = write_group_tables(head);
+  const EncodeTable residuals = write_residual_table(head);
   for (std::size_t s = 0; s < kStripSides; ++s) {
-    const Side& side = sides_[s];
-    {
-      Bytes& stream = streams_[s];
-      PlainBitWriter bits(room_for(stream, side.group_count * kGroupBytes));
-      const std::uint8_t* change = side.changes.data();
-      for (std::size_t i = 0; i < side.group_count; ++i) {
-        const std::uint16_t group = side.groups[i];
-        const SetEncodeTable& table = tables.groups[group >> kClassShift & 3u];
-        if ((group & kChangeMark) != 0) {
-          const SetEncodeTable::Word& mark = table.words[kHolesChange];
-          const SetEncodeTable::Word& word = tables.changes.words[*change++];
-          bits.put(mark.code | std::uint32_t{word.code} << mark.length, mark.length + word.length);
-        }
-        const SetEncodeTable::Word& word = table.words[group & 255u];
-        bits.put(word.code, word.length);
-      }
-      stream_sizes_[s] = static_cast<std::size_t>(bits.end() - stream.data());
-    }
-    {
-      Bytes& stream = streams_[kStripSides + s];
-      PlainBitWriter bits(room_for(stream, side.residual_count * kResidualBytes));
-      for (std::size_t i = 0; i < side.residual_count; ++i) {
-        const std::size_t index = near_index(side.residuals[i]);
-        const Bits one = index < near_bits.size() ? near_bits[index]
-                                                  : residual_bits(side.residuals[i], number_table);
-        bits.put(one.value, static_cast<int>(one.count));
-      }
-      stream_sizes_[kStripSides + s] = static_cast<std::size_t>(bits.end() - stream.data());
-    }
+    write_groups(sides_[s], groups, streams_[s]);
+    write_residuals(sides_[s], residuals, streams_[kStripSides + s]);
   }
 }
 

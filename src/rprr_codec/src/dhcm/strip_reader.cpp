@@ -53,12 +53,12 @@ inline std::uint16_t set_entry(const StripTables::Sets& table, BitReader& bits) 
 // False if a symbol means nothing.
 inline bool read_group(const StripTables& tables, std::size_t group, std::size_t begin,
                        RowReader& row) {
-  row.bits.refill();
   std::uint8_t holes = row.above[group];
   const StripTables::Sets& table = tables.groups[hole_class(holes)];
   std::uint16_t entry = set_entry(table, row.bits);
   if (entry >> 4 == kHolesChange) {
     holes = static_cast<std::uint8_t>(holes ^ set_entry(tables.changes, row.bits) >> 4);
+    row.bits.refill();
     entry = set_entry(table, row.bits);
     if (entry >> 4 == kHolesChange) return false;
   }
@@ -112,7 +112,7 @@ bool StripReader::strip(int strip, const StripTables& tables, StripStreams& stre
     missed_count_.fill(0);
     const auto length = static_cast<std::size_t>(segment.end - segment.begin + 1) * 64;
     std::fill_n(skewed_.begin(), length, std::int16_t{0});
-    std::fill_n(skewed_holes_.begin(), length, std::int16_t{0});
+    if (any_holes_) std::fill(skewed_holes_.begin(), skewed_holes_.end(), std::int16_t{0});
     for (int k = 0; k < rows; k += 2) read_rows(segment, k, k + 1 < rows, tables, streams);
     read_residuals(tables, streams);
     place_holes(segment, rows);
@@ -135,14 +135,29 @@ void StripReader::read_rows(const StripSegment& segment, int row, bool pair,
   if (pair) {
     RowReader odd = {streams[1], missed_[1].data() + missed_count_[1], row + 1,
                      holes_[k + 1].data(), holes_[k].data()};
-    for (std::size_t g = begin; g < end; ++g) {
+    std::size_t g = begin;
+    // Two groups a refill, which is enough for both.
+    for (; g + 2 <= end; g += 2) {
+      even.bits.refill();
+      odd.bits.refill();
+      good &= read_group(tables, g, begin, even);
+      good &= read_group(tables, g, begin, odd);
+      good &= read_group(tables, g + 1, begin, even);
+      good &= read_group(tables, g + 1, begin, odd);
+    }
+    if (g < end) {
+      even.bits.refill();
+      odd.bits.refill();
       good &= read_group(tables, g, begin, even);
       good &= read_group(tables, g, begin, odd);
     }
     streams[1] = odd.bits;
     missed_count_[1] = static_cast<std::size_t>(odd.to - missed_[1].data());
   } else {
-    for (std::size_t g = begin; g < end; ++g) good &= read_group(tables, g, begin, even);
+    for (std::size_t g = begin; g < end; ++g) {
+      even.bits.refill();
+      good &= read_group(tables, g, begin, even);
+    }
   }
   streams[0] = even.bits;
   missed_count_[0] = static_cast<std::size_t>(even.to - missed_[0].data());
@@ -153,7 +168,6 @@ namespace {
 
 inline unsigned read_residual(const StripTables& tables, BitReader& bits, std::size_t place,
                               std::int16_t* skewed) {
-  bits.refill();
   const StripTables::Residual& entry = tables.residuals[bits.peek(kMaxCodeLength)];
   const std::uint32_t number =
       entry.base + (bits.peek(kMaxCodeLength + 16) >> entry.length & entry.extra);
@@ -170,15 +184,24 @@ void StripReader::read_residuals(const StripTables& tables, StripStreams& stream
   const std::size_t both = std::min(missed_count_[0], missed_count_[1]);
   std::int16_t* const skewed = skewed_.data();
   unsigned bad = 0;
-  for (std::size_t i = 0; i < both; ++i) {
-    bad |= read_residual(tables, even, missed_[0][i], skewed);
-    bad |= read_residual(tables, odd, missed_[1][i], skewed);
+  const std::uint16_t* const e = missed_[0].data();
+  const std::uint16_t* const o = missed_[1].data();
+  std::size_t i = 0;
+  for (; i + 2 <= both; i += 2) {
+    even.refill();
+    odd.refill();
+    bad |= read_residual(tables, even, e[i], skewed);
+    bad |= read_residual(tables, odd, o[i], skewed);
+    bad |= read_residual(tables, even, e[i + 1], skewed);
+    bad |= read_residual(tables, odd, o[i + 1], skewed);
   }
-  for (std::size_t i = both; i < missed_count_[0]; ++i) {
-    bad |= read_residual(tables, even, missed_[0][i], skewed);
+  for (std::size_t j = i; j < missed_count_[0]; ++j) {
+    even.refill();
+    bad |= read_residual(tables, even, e[j], skewed);
   }
-  for (std::size_t i = both; i < missed_count_[1]; ++i) {
-    bad |= read_residual(tables, odd, missed_[1][i], skewed);
+  for (std::size_t j = i; j < missed_count_[1]; ++j) {
+    odd.refill();
+    bad |= read_residual(tables, odd, o[j], skewed);
   }
   streams[2] = even;
   streams[3] = odd;
@@ -248,7 +271,11 @@ void StripReader::write(const StripSegment& segment, int rows, const StripTarget
     std::uint16_t* const out = target.first + static_cast<std::size_t>(k) * target.stride + begin;
     const auto* const from = reinterpret_cast<const std::uint16_t*>(skewed_.data()) + 9 * k;
     if (target.values != nullptr) {
-      for (int u = 0; u < count; ++u) out[u] = target.values[from[8 * u]];
+      int u = 0;
+      for (; u + kLanes <= count; u += kLanes) {
+        for (int i = 0; i < kLanes; ++i) out[u + i] = target.values[from[8 * (u + i)]];
+      }
+      for (; u < count; ++u) out[u] = target.values[from[8 * u]];
     } else {
       for (int u = 0; u < count; ++u) out[u] = from[8 * u];
     }

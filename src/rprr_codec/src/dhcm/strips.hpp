@@ -90,7 +90,7 @@ class StripCoder {
   /// groups of both sides, then those of residuals.
   void write(BitWriter& head);
   ByteView stream(std::size_t index) const {
-    return {streams_[index].data(), stream_sizes_[index]};
+    return {streams_[index].bytes.data(), streams_[index].size};
   }
 
  private:
@@ -103,8 +103,27 @@ class StripCoder {
     std::size_t change_count = 0;
     std::size_t residual_count = 0;
   };
+  // As long as any frame needed so far.
+  struct Stream {
+    Bytes bytes;
+    std::size_t size = 0;
+
+    std::uint8_t* room(std::size_t most) {
+      if (bytes.size() < most + 8) bytes.resize(most + 8);
+      return bytes.data();
+    }
+    void close(const PlainBitWriter& writer) {
+      size = static_cast<std::size_t>(writer.end() - bytes.data());
+    }
+  };
+  // The last one is of holes that change.
+  using GroupTables = std::array<SetEncodeTable, kHoleClasses + 1>;
   void compare(const std::uint16_t* ranks, const StripSegment& segment);
   void collect(const StripSegment& segment, Side& side);
+  GroupTables write_group_tables(BitWriter& head) const;
+  EncodeTable write_residual_table(BitWriter& head) const;
+  static void write_groups(const Side& side, const GroupTables& tables, Stream& stream);
+  static void write_residuals(const Side& side, const EncodeTable& table, Stream& stream);
 
   BlockGrid grid_;
   const BlockMask* mask_ = nullptr;
@@ -116,8 +135,7 @@ class StripCoder {
   std::vector<std::uint8_t> holes_;
   std::vector<std::int16_t> residual_;
   std::vector<std::uint8_t> missed_;
-  std::array<Bytes, kStripStreams> streams_;
-  std::array<std::size_t, kStripStreams> stream_sizes_{};
+  std::array<Stream, kStripStreams> streams_;
 };
 
 }  // namespace rprr::dhcm
