@@ -60,8 +60,7 @@ void StripCoder::strip(const std::uint16_t* ranks, std::size_t stride, int strip
       compare(ranks + static_cast<std::size_t>(k) * stride, segment);
       collect(segment, sides_[static_cast<std::size_t>(k) % kStripSides]);
       if (k == 0) {
-        const int end = std::min(segment.end * kLanes, grid_.width);
-        surface_.last = surface_.fill[static_cast<std::size_t>(end - 1)];
+        surface_.last = surface_.fill[static_cast<std::size_t>(segment.begin) * kLanes];
       }
     }
   }

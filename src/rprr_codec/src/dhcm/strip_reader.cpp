@@ -116,7 +116,11 @@ bool StripReader::strip(int strip, const StripTables& tables, StripStreams& stre
     for (int k = 0; k < rows; k += 2) read_rows(segment, k, k + 1 < rows, tables, streams);
     read_residuals(tables, streams);
     place_holes(segment, rows);
-    rebuild(segment);
+    if (any_holes_) {
+      rebuild<true>(segment);
+    } else {
+      rebuild<false>(segment);
+    }
     if (!good_) return false;
     write(segment, rows, target);
   }
@@ -226,41 +230,53 @@ void StripReader::place_holes(const StripSegment& segment, int rows) {
             surface_.holes.begin() + segment.begin);
 }
 
+// Eight rows at once. What a pixel is predicted from was made one and two steps before.
+template <bool kHoles>
 void StripReader::rebuild(const StripSegment& segment) {
-  using Unsigned = std::uint16_t __attribute__((vector_size(16)));
   std::int16_t* const surface = surface_.fill.data() + segment.begin * kLanes;
+  std::int16_t* const skewed = skewed_.data();
+  const std::int16_t* const holes = skewed_holes_.data();
   const int columns = (segment.end - segment.begin) * kLanes;
-  const int last_top = std::min(columns, grid_.width - segment.begin * kLanes) - 1;
-  const auto largest = reinterpret_cast<Unsigned>(all(largest_));
-  const Lanes order = {0, 1, 2, 3, 4, 5, 6, 7};
-  Lanes bad = all(0);
+  Lanes lowest = all(0);
+  Lanes highest = all(0);
   Lanes x = all(0);
   Lanes n = all(0);
   const auto step = [&](int t, Lanes w, Lanes nw) {
     const Lanes guess = min(max(n + (w - nw), min(w, n)), max(w, n));
-    const Lanes hole = load(skewed_holes_.data() + 8 * t);
-    x = select(hole, n, guess + load(skewed_.data() + 8 * t));
-    const Lanes seen = x & ~hole;
-    bad |= reinterpret_cast<Lanes>(reinterpret_cast<Unsigned>(seen) > largest);
-    store(seen, skewed_.data() + 8 * t);
-  };
-  for (int t = 0; t < columns + kStripRows - 1; ++t) {
-    const Lanes nw = n;
-    n = shift_in(t < columns ? surface[t] : std::int16_t{0}, x);
-    if (t < kStripRows) {
-      // A row's first pixel is predicted as the one above it.
-      const Lanes starts = order == all(t);
-      step(t, select(starts, n, x), select(starts, n, nw));
-    } else {
-      step(t, x, nw);
+    const Lanes residual = load(skewed + 8 * t);
+    Lanes seen = x = guess + residual;
+    if (kHoles) {
+      const Lanes hole = load(holes + 8 * t);
+      x = select(hole, n, x);
+      seen = x & ~hole;
     }
-    if (t == last_top) surface_.last = x[0];
-    if (t >= kStripRows - 1) surface[t - kStripRows + 1] = x[kLanes - 1];
+    lowest = min(lowest, seen);
+    highest = max(highest, seen);
+    store(seen, skewed + 8 * t);
+  };
+  int t = 0;
+  for (; t < kStripRows; ++t) {
+    // A row's first pixel is predicted as the one above it.
+    const Lanes starts = Lanes{0, 1, 2, 3, 4, 5, 6, 7} == all(t);
+    const Lanes nw = n;
+    n = shift_in(surface[t], x);
+    step(t, select(starts, n, x), select(starts, n, nw));
+    if (t == 0) surface_.last = x[0];
   }
-  if (largest_ < 32768) {
-    std::int16_t any[kLanes];
-    store(bad, any);
-    for (const std::int16_t lane : any) good_ = good_ && lane == 0;
+  surface[0] = x[kLanes - 1];
+  for (; t < columns + kStripRows - 1; ++t) {
+    const Lanes nw = n;
+    n = shift_in(surface[std::min(t, columns - 1)], x);
+    step(t, x, nw);
+    surface[t - kStripRows + 1] = x[kLanes - 1];
+  }
+  if (largest_ < 32768) check(lowest, highest);
+}
+
+// A guess lies between two ranks, as signed numbers: none is beyond those that were decoded.
+void StripReader::check(Lanes lowest, Lanes highest) {
+  for (int i = 0; i < kLanes; ++i) {
+    good_ = good_ && lowest[i] >= 0 && highest[i] <= static_cast<int>(largest_);
   }
 }
 

@@ -49,7 +49,9 @@ class StripReader {
                  StripStreams& streams);
   void read_residuals(const StripTables& tables, StripStreams& streams);
   void place_holes(const StripSegment& segment, int rows);
+  template <bool kHoles>
   void rebuild(const StripSegment& segment);
+  void check(Lanes lowest, Lanes highest);
   void write(const StripSegment& segment, int rows, const StripTarget& target) const;
 
   BlockGrid grid_;

@@ -70,7 +70,7 @@ void list_segments(const BlockGrid& grid, const BlockMask* mask, int strip,
 struct StripSurface {
   std::vector<std::int16_t> fill;   // by column, padded to whole groups
   std::vector<std::uint8_t> holes;  // by group, the first pixel lowest
-  std::int16_t last = 0;            // top right of the segment before
+  std::int16_t last = 0;            // top left pixel of the segment before
 
   void reset(int columns);
   /// Makes up what stands above those blocks of a segment that have none above.
