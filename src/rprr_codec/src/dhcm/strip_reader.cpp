@@ -89,7 +89,24 @@ bool StripTables::read(BitReader& bits) {
                            static_cast<std::uint16_t>((1u << extra) - 1u), entry.length,
                            static_cast<std::uint8_t>(entry.length + extra), 0};
                  });
+  find_pairs();
   return true;
+}
+
+void StripTables::find_pairs() {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Residual& first = residuals[i];
+    const Residual& second = residuals[i >> first.length];
+    Pair& pair = pairs[i];
+    pair.bits = static_cast<std::uint8_t>(first.length + second.length);
+    pair.found = pair.bits <= kMaxCodeLength && (first.extra | second.extra) == 0 &&
+                 (first.bad | second.bad) == 0;
+    pair.first = static_cast<std::int16_t>(unfold(first.base + 1u));
+    pair.second = static_cast<std::int16_t>(unfold(second.base + 1u));
+    found += pair.found;
+  }
+  mostly_pairs = found > pairs.size() / 8 * 5;
 }
 
 StripReader::StripReader(const BlockGrid& grid, const BlockMask* mask, std::uint16_t largest)
@@ -170,27 +187,60 @@ void StripReader::read_rows(const StripSegment& segment, int row, bool pair,
 
 namespace {
 
+// Places that stand for 8 times the column and the row.
+inline void put_residual(std::int16_t* skewed, std::size_t place, std::int16_t residual) {
+  skewed[place + (place & 7) * 8] = residual;
+}
+
+// Takes at most 24 bits.
 inline unsigned read_residual(const StripTables& tables, BitReader& bits, std::size_t place,
                               std::int16_t* skewed) {
   const StripTables::Residual& entry = tables.residuals[bits.peek(kMaxCodeLength)];
   const std::uint32_t number =
       entry.base + (bits.peek(kMaxCodeLength + 16) >> entry.length & entry.extra);
   bits.skip(entry.bits);
-  skewed[place + (place & 7) * 8] = static_cast<std::int16_t>(unfold(number + 1));
+  put_residual(skewed, place, static_cast<std::int16_t>(unfold(number + 1)));
   return entry.bad;
+}
+
+// Takes at most 10 bits, or refills afterwards.
+inline unsigned read_pair(const StripTables& tables, BitReader& bits, const std::uint16_t* places,
+                          std::int16_t* skewed) {
+  const StripTables::Pair& pair = tables.pairs[bits.peek(kMaxCodeLength)];
+  if (pair.found == 0) {
+    unsigned bad = read_residual(tables, bits, places[0], skewed);
+    bad |= read_residual(tables, bits, places[1], skewed);
+    bits.refill();
+    return bad;
+  }
+  bits.skip(pair.bits);
+  put_residual(skewed, places[0], pair.first);
+  put_residual(skewed, places[1], pair.second);
+  return 0;
 }
 
 }  // namespace
 
+// Both sides at once while both have some: their streams do not wait for each other.
 void StripReader::read_residuals(const StripTables& tables, StripStreams& streams) {
   BitReader even = streams[2];
   BitReader odd = streams[3];
+  const std::uint16_t* const e = missed_[0].data();
+  const std::uint16_t* const o = missed_[1].data();
   const std::size_t both = std::min(missed_count_[0], missed_count_[1]);
   std::int16_t* const skewed = skewed_.data();
   unsigned bad = 0;
-  const std::uint16_t* const e = missed_[0].data();
-  const std::uint16_t* const o = missed_[1].data();
   std::size_t i = 0;
+  if (tables.mostly_pairs) {
+    for (; i + 4 <= both; i += 4) {
+      even.refill();
+      odd.refill();
+      bad |= read_pair(tables, even, e + i, skewed);
+      bad |= read_pair(tables, odd, o + i, skewed);
+      bad |= read_pair(tables, even, e + i + 2, skewed);
+      bad |= read_pair(tables, odd, o + i + 2, skewed);
+    }
+  }
   for (; i + 2 <= both; i += 2) {
     even.refill();
     odd.refill();
@@ -199,14 +249,14 @@ void StripReader::read_residuals(const StripTables& tables, StripStreams& stream
     bad |= read_residual(tables, even, e[i + 1], skewed);
     bad |= read_residual(tables, odd, o[i + 1], skewed);
   }
-  for (std::size_t j = i; j < missed_count_[0]; ++j) {
-    even.refill();
-    bad |= read_residual(tables, even, e[j], skewed);
-  }
-  for (std::size_t j = i; j < missed_count_[1]; ++j) {
-    odd.refill();
-    bad |= read_residual(tables, odd, o[j], skewed);
-  }
+  const auto rest = [&](BitReader& bits, const std::uint16_t* places, std::size_t count) {
+    for (std::size_t j = i; j < count; ++j) {
+      bits.refill();
+      bad |= read_residual(tables, bits, places[j], skewed);
+    }
+  };
+  rest(even, e, missed_count_[0]);
+  rest(odd, o, missed_count_[1]);
   streams[2] = even;
   streams[3] = odd;
   good_ = good_ && bad == 0;

@@ -20,9 +20,21 @@ struct StripTables {
   std::array<Sets, kHoleClasses> groups;
   Sets changes;
   std::array<Residual, 1u << kMaxCodeLength> residuals;
+  // Two residuals, where both are found in the same bits.
+  struct Pair {
+    std::int16_t first;
+    std::int16_t second;
+    std::uint8_t bits;
+    std::uint8_t found;  // 0 or 1
+  };
+  std::array<Pair, 1u << kMaxCodeLength> pairs;
+  bool mostly_pairs;  // else looking for them costs more than it saves
 
   /// False if the bits are no such tables.
   bool read(BitReader& bits);
+
+ private:
+  void find_pairs();
 };
 
 using StripStreams = std::array<BitReader, kStripStreams>;
