@@ -21,25 +21,35 @@ bool read_sets(BitReader& bits, StripTables::Sets& sets) {
 }
 
 // Eight times the places of a set's bits.
-struct SteppedPlaces {
-  std::uint8_t at[kLanes];
-};
+using SteppedPlaces = std::array<std::int16_t, kLanes>;
 constexpr std::array<SteppedPlaces, 256> make_stepped() {
   std::array<SteppedPlaces, 256> all{};
   for (std::size_t set = 0; set < 256; ++set) {
     for (std::size_t i = 0; i < kLanes; ++i) {
-      all[set].at[i] = static_cast<std::uint8_t>(8 * kPlaces[set].at[i]);
+      all[set][i] = static_cast<std::int16_t>(8 * kPlaces[set].at[i]);
     }
   }
   return all;
 }
 constexpr std::array<SteppedPlaces, 256> kStepped = make_stepped();
 
+// As lanes, 0 or -1.
+constexpr std::array<std::array<std::int16_t, kLanes>, 256> make_hole_lanes() {
+  std::array<std::array<std::int16_t, kLanes>, 256> all{};
+  for (std::size_t set = 0; set < 256; ++set) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      all[set][i] = static_cast<std::int16_t>((set >> i & 1) != 0 ? -1 : 0);
+    }
+  }
+  return all;
+}
+constexpr auto kHoleLanes = make_hole_lanes();
+
 // A row's share of reading groups.
 struct RowReader {
   BitReader bits;
   std::uint16_t* to;  // pixels that are not as guessed
-  int row;
+  Lanes first;                // place of the group's first pixel
   std::uint8_t* holes;        // of this row
   const std::uint8_t* above;  // and of the one above
 };
@@ -51,8 +61,7 @@ inline std::uint16_t set_entry(const StripTables::Sets& table, BitReader& bits) 
 }
 
 // False if a symbol means nothing.
-inline bool read_group(const StripTables& tables, std::size_t group, std::size_t begin,
-                       RowReader& row) {
+inline bool read_group(const StripTables& tables, std::size_t group, RowReader& row) {
   std::uint8_t holes = row.above[group];
   const StripTables::Sets& table = tables.groups[hole_class(holes)];
   std::uint16_t entry = set_entry(table, row.bits);
@@ -64,9 +73,9 @@ inline bool read_group(const StripTables& tables, std::size_t group, std::size_t
   }
   row.holes[group] = holes;
   const auto set = static_cast<std::size_t>(entry >> 4);
-  const Lanes places = load_bytes(kStepped[set].at) +
-                       all(static_cast<int>((group - begin) * 64) + row.row);
+  const Lanes places = load(kStepped[set].data()) + row.first;
   std::memcpy(row.to, &places, sizeof(places));
+  row.first += all(kLanes * kLanes);
   row.to += kSizes[set];
   return true;
 }
@@ -149,35 +158,36 @@ void StripReader::read_rows(const StripSegment& segment, int row, bool pair,
                             const StripTables& tables, StripStreams& streams) {
   const auto k = static_cast<std::size_t>(row);
   const std::uint8_t* const above = k == 0 ? surface_.holes.data() : holes_[k - 1].data();
-  RowReader even = {streams[0], missed_[0].data() + missed_count_[0], row, holes_[k].data(), above};
+  RowReader even = {streams[0], missed_[0].data() + missed_count_[0], all(row),
+                    holes_[k].data(), above};
   const auto begin = static_cast<std::size_t>(segment.begin);
   const auto end = static_cast<std::size_t>(segment.end);
   bool good = true;
   if (pair) {
-    RowReader odd = {streams[1], missed_[1].data() + missed_count_[1], row + 1,
+    RowReader odd = {streams[1], missed_[1].data() + missed_count_[1], all(row + 1),
                      holes_[k + 1].data(), holes_[k].data()};
     std::size_t g = begin;
     // Two groups a refill, which is enough for both.
     for (; g + 2 <= end; g += 2) {
       even.bits.refill();
       odd.bits.refill();
-      good &= read_group(tables, g, begin, even);
-      good &= read_group(tables, g, begin, odd);
-      good &= read_group(tables, g + 1, begin, even);
-      good &= read_group(tables, g + 1, begin, odd);
+      good &= read_group(tables, g, even);
+      good &= read_group(tables, g, odd);
+      good &= read_group(tables, g + 1, even);
+      good &= read_group(tables, g + 1, odd);
     }
     if (g < end) {
       even.bits.refill();
       odd.bits.refill();
-      good &= read_group(tables, g, begin, even);
-      good &= read_group(tables, g, begin, odd);
+      good &= read_group(tables, g, even);
+      good &= read_group(tables, g, odd);
     }
     streams[1] = odd.bits;
     missed_count_[1] = static_cast<std::size_t>(odd.to - missed_[1].data());
   } else {
     for (std::size_t g = begin; g < end; ++g) {
       even.bits.refill();
-      good &= read_group(tables, g, begin, even);
+      good &= read_group(tables, g, even);
     }
   }
   streams[0] = even.bits;
@@ -272,7 +282,8 @@ void StripReader::place_holes(const StripSegment& segment, int rows) {
       any_holes_ = true;
       std::int16_t* const to =
           skewed_holes_.data() + (g - begin) * 64 + static_cast<std::size_t>(9 * k);
-      for (int i = 0; i < kLanes; ++i) to[8 * i] = static_cast<std::int16_t>(-(row[g] >> i & 1));
+      const std::int16_t* const lanes = kHoleLanes[row[g]].data();
+      for (int i = 0; i < kLanes; ++i) to[8 * i] = lanes[i];
     }
   }
   const auto last = static_cast<std::size_t>(rows - 1);
