@@ -125,6 +125,8 @@ StripReader::StripReader(const BlockGrid& grid, const BlockMask* mask, std::uint
   // Four rows, and what is written beyond the last one.
   for (auto& places : missed_) places.resize((groups * kStripRows / kStripSides + 1) * kLanes);
   for (auto& row : holes_) row.resize(groups);
+  some_.resize(groups);
+  every_.resize(groups);
   skewed_.resize((groups * kLanes + kStripRows) * kStripRows);
   skewed_holes_.resize(skewed_.size());
 }
@@ -142,10 +144,13 @@ bool StripReader::strip(int strip, const StripTables& tables, StripStreams& stre
     for (int k = 0; k < rows; k += 2) read_rows(segment, k, k + 1 < rows, tables, streams);
     read_residuals(tables, streams);
     place_holes(segment, rows);
-    if (any_holes_) {
-      rebuild<true>(segment);
-    } else {
-      rebuild<false>(segment);
+    const std::int16_t* const fill = surface_.fill.data();
+    surface_.last = fill[segment.begin * kLanes];
+    for (const StripSegment& part : parts_) {
+      const std::size_t from = static_cast<std::size_t>(part.begin - segment.begin) * 64;
+      const bool first = part.begin == segment.begin;
+      const std::int16_t top_left = any_holes_ ? rebuild<true>(part, from) : rebuild<false>(part, from);
+      if (first) surface_.last = top_left;
     }
     if (!good_) return false;
     write(segment, rows, target);
@@ -272,32 +277,48 @@ void StripReader::read_residuals(const StripTables& tables, StripStreams& stream
   good_ = good_ && bad == 0;
 }
 
+// Which pixels are without reading, and the parts of the segment that have any reading at all.
 void StripReader::place_holes(const StripSegment& segment, int rows) {
-  any_holes_ = false;
   const auto begin = static_cast<std::size_t>(segment.begin);
-  for (int k = 0; k < rows; ++k) {
-    const std::vector<std::uint8_t>& row = holes_[static_cast<std::size_t>(k)];
-    for (std::size_t g = begin; g < static_cast<std::size_t>(segment.end); ++g) {
-      if (row[g] == 0) continue;
-      any_holes_ = true;
-      std::int16_t* const to =
-          skewed_holes_.data() + (g - begin) * 64 + static_cast<std::size_t>(9 * k);
-      const std::int16_t* const lanes = kHoleLanes[row[g]].data();
+  const auto end = static_cast<std::size_t>(segment.end);
+  std::copy(holes_[0].begin(), holes_[0].end(), some_.begin());
+  std::copy(holes_[0].begin(), holes_[0].end(), every_.begin());
+  for (std::size_t k = 1; k < static_cast<std::size_t>(rows); ++k) {
+    for (std::size_t g = begin; g < end; ++g) {
+      some_[g] |= holes_[k][g];
+      every_[g] &= holes_[k][g];
+    }
+  }
+  any_holes_ = false;
+  parts_.clear();
+  for (std::size_t g = begin; g < end; ++g) {
+    if (every_[g] == 255) continue;
+    const int column = static_cast<int>(g);
+    if (parts_.empty() || parts_.back().end != column) parts_.push_back({column, column});
+    ++parts_.back().end;
+    if (some_[g] == 0) continue;
+    any_holes_ = true;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(rows); ++k) {
+      std::int16_t* const to = skewed_holes_.data() + (g - begin) * 64 + 9 * k;
+      const std::int16_t* const lanes = kHoleLanes[holes_[k][g]].data();
       for (int i = 0; i < kLanes; ++i) to[8 * i] = lanes[i];
     }
   }
-  const auto last = static_cast<std::size_t>(rows - 1);
-  std::copy(holes_[last].begin() + segment.begin, holes_[last].begin() + segment.end,
+  const std::vector<std::uint8_t>& last = holes_[static_cast<std::size_t>(rows - 1)];
+  std::copy(last.begin() + segment.begin, last.begin() + segment.end,
             surface_.holes.begin() + segment.begin);
 }
 
-// Eight rows at once. What a pixel is predicted from was made one and two steps before.
+// Eight rows at once. What a pixel is predicted from was made one and two steps before. Left of a
+// part, and right of it, is nothing or blocks without any reading, which leave the surface as it
+// is: both predict a row's first pixel as the one above it, and what is written there is not read.
 template <bool kHoles>
-void StripReader::rebuild(const StripSegment& segment) {
-  std::int16_t* const surface = surface_.fill.data() + segment.begin * kLanes;
-  std::int16_t* const skewed = skewed_.data();
-  const std::int16_t* const holes = skewed_holes_.data();
-  const int columns = (segment.end - segment.begin) * kLanes;
+std::int16_t StripReader::rebuild(const StripSegment& part, std::size_t from) {
+  std::int16_t* const surface = surface_.fill.data() + part.begin * kLanes;
+  std::int16_t* const skewed = skewed_.data() + from;
+  const std::int16_t* const holes = skewed_holes_.data() + from;
+  const int columns = (part.end - part.begin) * kLanes;
+  std::int16_t top_left = 0;
   Lanes lowest = all(0);
   Lanes highest = all(0);
   Lanes x = all(0);
@@ -317,12 +338,11 @@ void StripReader::rebuild(const StripSegment& segment) {
   };
   int t = 0;
   for (; t < kStripRows; ++t) {
-    // A row's first pixel is predicted as the one above it.
     const Lanes starts = Lanes{0, 1, 2, 3, 4, 5, 6, 7} == all(t);
     const Lanes nw = n;
     n = shift_in(surface[t], x);
     step(t, select(starts, n, x), select(starts, n, nw));
-    if (t == 0) surface_.last = x[0];
+    if (t == 0) top_left = x[0];
   }
   surface[0] = x[kLanes - 1];
   for (; t < columns + kStripRows - 1; ++t) {
@@ -332,6 +352,7 @@ void StripReader::rebuild(const StripSegment& segment) {
     surface[t - kStripRows + 1] = x[kLanes - 1];
   }
   if (largest_ < 32768) check(lowest, highest);
+  return top_left;
 }
 
 // A guess lies between two ranks, as signed numbers: none is beyond those that were decoded.
@@ -342,20 +363,38 @@ void StripReader::check(Lanes lowest, Lanes highest) {
 }
 
 void StripReader::write(const StripSegment& segment, int rows, const StripTarget& target) const {
-  const int begin = segment.begin * kLanes;
-  const int count = std::min(segment.end * kLanes, grid_.width) - begin;
+  int written = segment.begin * kLanes;
+  const auto clear = [&](int end) {
+    for (int k = 0; k < rows && written < end; ++k) {
+      std::uint16_t* const row = target.first + static_cast<std::size_t>(k) * target.stride;
+      std::fill(row + written, row + end, std::uint16_t{0});
+    }
+  };
+  for (const StripSegment& part : parts_) {
+    clear(part.begin * kLanes);
+    write_part(part, static_cast<std::size_t>(part.begin - segment.begin) * 64, rows, target);
+    written = std::min(part.end * kLanes, grid_.width);
+  }
+  clear(std::min(segment.end * kLanes, grid_.width));
+}
+
+void StripReader::write_part(const StripSegment& part, std::size_t from, int rows,
+                             const StripTarget& target) const {
+  const int begin = part.begin * kLanes;
+  const int count = std::min(part.end * kLanes, grid_.width) - begin;
+  const auto* const ranks = reinterpret_cast<const std::uint16_t*>(skewed_.data()) + from;
   for (int k = 0; k < rows; ++k) {
     std::uint16_t* const out = target.first + static_cast<std::size_t>(k) * target.stride + begin;
-    const auto* const from = reinterpret_cast<const std::uint16_t*>(skewed_.data()) + 9 * k;
-    if (target.values != nullptr) {
-      int u = 0;
-      for (; u + kLanes <= count; u += kLanes) {
-        for (int i = 0; i < kLanes; ++i) out[u + i] = target.values[from[8 * (u + i)]];
-      }
-      for (; u < count; ++u) out[u] = target.values[from[8 * u]];
-    } else {
-      for (int u = 0; u < count; ++u) out[u] = from[8 * u];
+    const std::uint16_t* const row = ranks + 9 * k;
+    int u = 0;
+    if (target.values == nullptr) {
+      for (; u < count; ++u) out[u] = row[8 * u];
+      continue;
     }
+    for (; u + kLanes <= count; u += kLanes) {
+      for (int i = 0; i < kLanes; ++i) out[u + i] = target.values[row[8 * (u + i)]];
+    }
+    for (; u < count; ++u) out[u] = target.values[row[8 * u]];
   }
 }
 

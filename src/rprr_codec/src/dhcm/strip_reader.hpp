@@ -62,9 +62,11 @@ class StripReader {
   void read_residuals(const StripTables& tables, StripStreams& streams);
   void place_holes(const StripSegment& segment, int rows);
   template <bool kHoles>
-  void rebuild(const StripSegment& segment);
+  std::int16_t rebuild(const StripSegment& part, std::size_t from);
   void check(Lanes lowest, Lanes highest);
   void write(const StripSegment& segment, int rows, const StripTarget& target) const;
+  void write_part(const StripSegment& part, std::size_t from, int rows,
+                  const StripTarget& target) const;
 
   BlockGrid grid_;
   const BlockMask* mask_;
@@ -76,7 +78,10 @@ class StripReader {
   std::array<std::vector<std::uint16_t>, kStripSides> missed_;
   std::array<std::size_t, kStripSides> missed_count_{};
   std::array<std::vector<std::uint8_t>, kStripRows> holes_;  // of its rows, by group
-  bool any_holes_ = false;
+  std::vector<std::uint8_t> some_;   // pixels of a column without reading in any row
+  std::vector<std::uint8_t> every_;  // and in all of them
+  std::vector<StripSegment> parts_;  // of the segment, between blocks without any reading
+  bool any_holes_ = false;           // in the parts
   // Eight rows side by side, each one column later than the one above, so that what a pixel is
   // predicted from lies before it: pixel (u, k) is number 8 (u + k) + k. First residuals, then ranks.
   std::vector<std::int16_t> skewed_;
