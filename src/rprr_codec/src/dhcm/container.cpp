@@ -62,7 +62,7 @@ Result<Opened> open(ByteView payload) {
   const int body = flags & kBodyBits;
   const int pixels = flags >> kPixelsShift & 3;
   const int mode = flags >> kModeShift & 3;
-  if (pixels > 2 || mode > 2) return Error{"depth payload in an unknown mode"};
+  if (body > 2 || pixels > 2 || mode > 2) return Error{"depth payload in an unknown mode"};
   opened.header.body = static_cast<Body>(body);
   opened.header.pixels = static_cast<DhcmPixels>(pixels);
   opened.header.mode = static_cast<DhcmMode>(mode);

@@ -10,7 +10,7 @@
 namespace rprr::dhcm {
 
 /// How the pixels are written.
-enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kGroups = 2, kStrips = 3 };
+enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kStrips = 2 };
 
 /// What stands before the pixels (doc/dhcm.md).
 struct Header {

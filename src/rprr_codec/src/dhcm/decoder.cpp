@@ -5,7 +5,6 @@
 
 #include "dhcm/container.hpp"
 #include "dhcm/float_image.hpp"
-#include "dhcm/groups.hpp"
 #include "dhcm/scan.hpp"
 #include "dhcm/strip_reader.hpp"
 #include "dhcm/tables.hpp"
@@ -221,7 +220,6 @@ struct DhcmDecoder::Buffers {
   dhcm::Surface surface;
   std::vector<dhcm::DecodeTable> tables;
   std::vector<dhcm::JointTable> joint;
-  std::vector<std::uint16_t> row;
   dhcm::StripTables strip_tables;
 
   Result<DepthFrame> decode(const dhcm::Opened& opened, const BlockMask* mask,
@@ -230,7 +228,6 @@ struct DhcmDecoder::Buffers {
  private:
   bool decode_body(const dhcm::Opened& opened, const BlockMask* mask, cv::Mat& counts);
   bool decode_events(dhcm::BitReader& bits, const BlockMask* mask, bool ranked, cv::Mat& counts);
-  bool decode_groups(dhcm::BitReader& bits, const BlockMask* mask, bool ranked, cv::Mat& counts);
   bool decode_strips(ByteView body, const BlockMask* mask, cv::Mat& counts);
   bool read_values(dhcm::BitReader& bits, bool ranked);
   // What ranks stand for, from rank 0; without a value table nothing.
@@ -297,28 +294,6 @@ bool DhcmDecoder::Buffers::decode_events(dhcm::BitReader& bits, const BlockMask*
   return true;
 }
 
-bool DhcmDecoder::Buffers::decode_groups(dhcm::BitReader& bits, const BlockMask* mask, bool ranked,
-                                         cv::Mat& counts) {
-  tables.resize(dhcm::kTables);
-  if (!dhcm::read_tables(bits, dhcm::kGroupContexts, tables.data())) return false;
-  const BlockGrid grid(counts.cols, counts.rows);
-  const auto largest = static_cast<std::uint16_t>(ranked ? values.values().size() : 65535);
-  dhcm::GroupReader reader(grid, mask, largest);
-  // Rows that do not end with a whole group are decoded beside the image.
-  const bool whole = grid.columns * dhcm::kLanes == counts.cols;
-  row.resize(whole ? 0 : static_cast<std::size_t>(grid.columns) * dhcm::kLanes);
-  for (int v = 0; v < counts.rows; ++v) {
-    auto* const out = counts.ptr<std::uint16_t>(v);
-    std::fill(row.begin(), row.end(), std::uint16_t{0});  // of blocks that are not sent
-    if (!reader.row(v, tables, ranked ? lookup.data() : nullptr, bits, whole ? out : row.data())) {
-      return false;
-    }
-    if (bits.overrun()) return false;
-    if (!whole) std::copy(row.begin(), row.begin() + counts.cols, out);
-  }
-  return true;
-}
-
 bool DhcmDecoder::Buffers::decode_strips(ByteView body, const BlockMask* mask, cv::Mat& counts) {
   ByteReader sizes(body);
   std::array<std::size_t, dhcm::kStripStreams> lengths{};
@@ -369,10 +344,7 @@ bool DhcmDecoder::Buffers::decode_body(const dhcm::Opened& opened, const BlockMa
   dhcm::BitReader bits(opened.body);
   const bool ranked = bits.get(1) != 0;
   if (!read_values(bits, ranked)) return false;
-  const bool good = opened.header.body == dhcm::Body::kGroups
-                        ? decode_groups(bits, mask, ranked, counts)
-                        : decode_events(bits, mask, ranked, counts);
-  return good && bits.finished();
+  return decode_events(bits, mask, ranked, counts) && bits.finished();
 }
 
 Result<DepthFrame> DhcmDecoder::Buffers::decode(const dhcm::Opened& opened, const BlockMask* mask,

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "dhcm/container.hpp"
 #include "dhcm/events.hpp"
 #include "dhcm/float_image.hpp"
-#include "dhcm/groups.hpp"
 #include "dhcm/strips.hpp"
 #include "dhcm/values.hpp"
 #include "rprr_codec/dhcm.hpp"
@@ -43,20 +43,15 @@ struct DhcmEncoder::Buffers {
   dhcm::EventCoder coder;
   dhcm::Histograms histograms;
   dhcm::EncodeTables tables;
-  dhcm::GroupCoder groups;
   dhcm::StripCoder strips;
-  std::array<dhcm::Histogram, dhcm::kGroupContexts> group_histograms;
-  std::array<dhcm::EncodeTable, dhcm::kGroupContexts> group_tables;
 
   Bytes encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
                DhcmPixels pixels = DhcmPixels::kCounts);
 
  private:
-  void collect_groups(const DepthFrame& frame, const BlockMask* mask, bool ranked);
   void collect_strips(const DepthFrame& frame, const BlockMask* mask, bool ranked);
   Bytes write_strips(const dhcm::Header& header, bool ranked);
   Bytes write_events(const dhcm::Header& header, bool ranked);
-  Bytes write_groups(const dhcm::Header& header, bool ranked);
   void take_row(const DepthFrame& frame, int v, bool ranked, std::uint16_t* to) const;
   bool rank_values(const DepthFrame& frame, dhcm::Segments& segments);
   void collect_events(const DepthFrame& frame, dhcm::Segments& segments, bool ranked,
@@ -64,13 +59,29 @@ struct DhcmEncoder::Buffers {
   static Bytes stored(const DepthFrame& frame, dhcm::Segments& segments, dhcm::Header header);
 };
 
+namespace {
+
+// Whether eight pixels have none; such are mostly many together.
+bool no_readings(const std::uint16_t* eight) {
+  std::uint64_t halves[2];
+  std::memcpy(halves, eight, sizeof(halves));
+  return (halves[0] | halves[1]) == 0;
+}
+
+}  // namespace
+
 bool DhcmEncoder::Buffers::rank_values(const DepthFrame& frame, dhcm::Segments& segments) {
   occurs.assign(65536, 0);
   std::uint8_t* const marks = occurs.data();
   for (int v = 0; v < frame.height(); ++v) {
     const auto* in = frame.counts.ptr<std::uint16_t>(v);
     for (const dhcm::Segment& segment : segments.of_row(v)) {
-      for (int u = segment.begin; u < segment.end; ++u) marks[in[u]] = 1;
+      int u = segment.begin;
+      for (; u + dhcm::kLanes <= segment.end; u += dhcm::kLanes) {
+        if (no_readings(in + u)) continue;
+        for (int i = 0; i < dhcm::kLanes; ++i) marks[in[u + i]] = 1;
+      }
+      for (; u < segment.end; ++u) marks[in[u]] = 1;
     }
   }
   values.collect(occurs);
@@ -87,12 +98,20 @@ void DhcmEncoder::Buffers::take_row(const DepthFrame& frame, int v, bool ranked,
                                     std::uint16_t* to) const {
   const auto* in = frame.counts.ptr<std::uint16_t>(v);
   const auto width = static_cast<std::size_t>(frame.width());
-  if (ranked) {
-    std::transform(in, in + width, to,
-                   [this](std::uint16_t value) { return rank_of[value]; });
-  } else {
+  if (!ranked) {
     std::copy(in, in + width, to);
+    return;
   }
+  const std::uint16_t* const ranks = rank_of.data();
+  std::size_t u = 0;
+  for (; u + dhcm::kLanes <= width; u += dhcm::kLanes) {
+    if (no_readings(in + u)) {
+      std::fill_n(to + u, dhcm::kLanes, std::uint16_t{0});
+    } else {
+      for (std::size_t i = 0; i < dhcm::kLanes; ++i) to[u + i] = ranks[in[u + i]];
+    }
+  }
+  for (; u < width; ++u) to[u] = ranks[in[u]];
 }
 
 void DhcmEncoder::Buffers::collect_events(const DepthFrame& frame, dhcm::Segments& segments,
@@ -125,17 +144,6 @@ Bytes DhcmEncoder::Buffers::stored(const DepthFrame& frame, dhcm::Segments& segm
   return out;
 }
 
-void DhcmEncoder::Buffers::collect_groups(const DepthFrame& frame, const BlockMask* mask,
-                                          bool ranked) {
-  const BlockGrid grid(frame.width(), frame.height());
-  row.assign(static_cast<std::size_t>(grid.columns) * dhcm::kLanes, 0);
-  groups.begin(grid, mask);
-  for (int v = 0; v < frame.height(); ++v) {
-    take_row(frame, v, ranked, row.data());
-    groups.row(row.data(), v);
-  }
-}
-
 void DhcmEncoder::Buffers::collect_strips(const DepthFrame& frame, const BlockMask* mask,
                                           bool ranked) {
   const BlockGrid grid(frame.width(), frame.height());
@@ -155,8 +163,8 @@ void DhcmEncoder::Buffers::collect_strips(const DepthFrame& frame, const BlockMa
 Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
                                    DhcmPixels pixels) {
   dhcm::Segments segments(BlockGrid(frame.width(), frame.height()), mask);
-  const bool fast = mode == DhcmMode::kFast;
-  const dhcm::Header header = {fast ? dhcm::Body::kGroups : mode == DhcmMode::kDefault ? dhcm::Body::kStrips : dhcm::Body::kEvents,
+  const bool small = mode == DhcmMode::kSmall;
+  const dhcm::Header header = {small ? dhcm::Body::kEvents : dhcm::Body::kStrips,
                                mode,
                                pixels,
                                mask != nullptr,
@@ -165,20 +173,15 @@ Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mas
                                frame.unit};
   const bool ranked = rank_values(frame, segments);
   Bytes out;
-  if (fast) {
-    collect_groups(frame, mask, ranked);
-    out = write_groups(header, ranked);
-  } else if (mode == DhcmMode::kDefault) {
-    collect_strips(frame, mask, ranked);
-    out = write_strips(header, ranked);
-  } else {
+  if (small) {
     collect_events(frame, segments, ranked, {});
     out = write_events(header, ranked);
-  }
-  if (mode == DhcmMode::kSmall) {
     collect_events(frame, segments, ranked, coder.better_direct(histograms));
     Bytes other = write_events(header, ranked);
     if (other.size() < out.size()) out = std::move(other);
+  } else {
+    collect_strips(frame, mask, ranked);
+    out = write_strips(header, ranked);
   }
   if (out.size() > 2 * segments.pixels() + 32) return stored(frame, segments, header);
   dhcm::finish(out);
@@ -207,7 +210,7 @@ Bytes DhcmEncoder::Buffers::write_strips(const dhcm::Header& header, bool ranked
   dhcm::BitWriter bits(out);
   bits.put(ranked ? 1 : 0, 1);
   if (ranked) values.write(bits);
-  strips.write(bits);
+  strips.write(header.mode == DhcmMode::kFast, bits);
   bits.finish();
   for (std::size_t s = 0; s < dhcm::kStripStreams; ++s) {
     const ByteView stream = strips.stream(s);
@@ -216,20 +219,6 @@ Bytes DhcmEncoder::Buffers::write_strips(const dhcm::Header& header, bool ranked
     }
     out.insert(out.end(), stream.data, stream.data + stream.size);
   }
-  return out;
-}
-
-Bytes DhcmEncoder::Buffers::write_groups(const dhcm::Header& header, bool ranked) {
-  Bytes out;
-  dhcm::begin(header, out);
-  if (groups.empty()) return out;
-  dhcm::BitWriter bits(out);
-  bits.put(ranked ? 1 : 0, 1);
-  if (ranked) values.write(bits);
-  groups.count(group_histograms);
-  dhcm::write_tables(group_histograms.data(), dhcm::kGroupContexts, bits, group_tables.data());
-  groups.write(group_tables, bits);
-  bits.finish();
   return out;
 }
 

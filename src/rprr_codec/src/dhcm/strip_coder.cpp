@@ -25,6 +25,9 @@ std::size_t near_index(std::uint16_t residual) {
   return static_cast<std::uint16_t>(residual + kNear);
 }
 
+// Of how many groups half say enough.
+constexpr std::size_t kLeastForHalf = 4096;
+
 struct Bits {
   std::uint32_t value;
   std::uint32_t count;
@@ -92,8 +95,7 @@ void StripCoder::compare(const std::uint16_t* ranks, const StripSegment& segment
     before = n[kLanes - 1];
     store(residual, residual_.data() + u);
     const auto group = static_cast<std::size_t>(u / kLanes);
-    missed_[group] =
-        static_cast<std::uint8_t>(bits_of_lanes(residual != 0) & ~holes_[group]);
+    missed_[group] = static_cast<std::uint8_t>(bits_of_lanes(residual != 0) & ~holes_[group]);
     store(x, above + u);
   }
   if (end > grid_.width) {
@@ -104,8 +106,8 @@ void StripCoder::compare(const std::uint16_t* ranks, const StripSegment& segment
   }
 }
 
-// Without branches on what is in the image, but for holes that change: a wrongly predicted one costs
-// more than all the rest of a group.
+// Without branches on what is in the image, but for holes that change: a wrongly predicted one
+// costs more than all the rest of a group.
 void StripCoder::collect(const StripSegment& segment, Side& side) {
   const auto most = static_cast<std::size_t>(grid_.columns);
   if (side.groups.size() < side.group_count + most) {
@@ -150,10 +152,10 @@ SetEncodeTable write_set_table(const SetHistogram& histogram, BitWriter& head) {
 
 }  // namespace
 
-StripCoder::GroupTables StripCoder::write_group_tables(BitWriter& head) const {
+StripCoder::GroupTables StripCoder::write_group_tables(bool half, BitWriter& head) const {
   // One of each for a side, since the same number counted up twice in a row is slow.
   std::array<std::array<SetHistogram, kHoleClasses + 1>, kStripSides> counts{};
-  for (std::size_t s = 0; s < kStripSides; ++s) {
+  for (std::size_t s = 0; s < (half ? 1 : kStripSides); ++s) {
     const Side& side = sides_[s];
     for (std::size_t i = 0; i < side.group_count; ++i) {
       const std::uint16_t group = side.groups[i];
@@ -165,16 +167,19 @@ StripCoder::GroupTables StripCoder::write_group_tables(BitWriter& head) const {
   }
   GroupTables tables;
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    for (std::size_t i = 0; i < kSetSymbols; ++i) counts[0][t][i] += counts[1][t][i];
+    for (std::size_t i = 0; i < kSetSymbols; ++i)
+      counts[0][t][i] += counts[1][t][i] + (half ? 1 : 0);
     tables[t] = write_set_table(counts[0][t], head);
   }
   return tables;
 }
 
-EncodeTable StripCoder::write_residual_table(BitWriter& head) const {
+EncodeTable StripCoder::write_residual_table(bool half, BitWriter& head) const {
   std::array<std::array<std::uint32_t, 2 * kNear + 1>, 4> near{};
   Histogram numbers{};
-  for (const Side& side : sides_) {
+  if (half) std::fill_n(numbers.begin(), kResidualSymbols, 1u);
+  for (std::size_t s = 0; s < (half ? 1 : kStripSides); ++s) {
+    const Side& side = sides_[s];
     const auto count = [&](std::size_t i, std::size_t part) {
       const std::size_t index = near_index(side.residuals[i]);
       ++near[part][std::min(index, 2 * kNear)];
@@ -237,9 +242,10 @@ void StripCoder::write_residuals(const Side& side, const EncodeTable& table, Str
   stream.close(bits);
 }
 
-void StripCoder::write(BitWriter& head) {
-  const GroupTables groups = write_group_tables(head);
-  const EncodeTable residuals = write_residual_table(head);
+void StripCoder::write(bool quick, BitWriter& head) {
+  const bool half = quick && sides_[1].group_count >= kLeastForHalf;
+  const GroupTables groups = write_group_tables(half, head);
+  const EncodeTable residuals = write_residual_table(half, head);
   for (std::size_t s = 0; s < kStripSides; ++s) {
     write_groups(sides_[s], groups, streams_[s]);
     write_residuals(sides_[s], residuals, streams_[kStripSides + s]);

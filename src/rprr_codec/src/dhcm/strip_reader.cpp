@@ -48,7 +48,7 @@ constexpr auto kHoleLanes = make_hole_lanes();
 // A row's share of reading groups.
 struct RowReader {
   BitReader bits;
-  std::uint16_t* to;  // pixels that are not as guessed
+  std::uint16_t* to;          // pixels that are not as guessed
   Lanes first;                // place of the group's first pixel
   std::uint8_t* holes;        // of this row
   const std::uint8_t* above;  // and of the one above
@@ -92,7 +92,8 @@ bool StripTables::read(BitReader& bits) {
   if (!read_lengths(bits, lengths) || !table.build(lengths)) return false;
   std::transform(table.entries.begin(), table.entries.end(), residuals.begin(),
                  [](const DecodeTable::Entry& entry) -> Residual {
-                   if (entry.symbol >= kResidualSymbols) return {0, 0, entry.length, entry.length, 1};
+                   if (entry.symbol >= kResidualSymbols)
+                     return {0, 0, entry.length, entry.length, 1};
                    const int extra = extra_bits_of(entry.symbol);
                    return {static_cast<std::uint16_t>(base_of(entry.symbol)),
                            static_cast<std::uint16_t>((1u << extra) - 1u), entry.length,
@@ -149,7 +150,8 @@ bool StripReader::strip(int strip, const StripTables& tables, StripStreams& stre
     for (const StripSegment& part : parts_) {
       const std::size_t from = static_cast<std::size_t>(part.begin - segment.begin) * 64;
       const bool first = part.begin == segment.begin;
-      const std::int16_t top_left = any_holes_ ? rebuild<true>(part, from) : rebuild<false>(part, from);
+      const std::int16_t top_left =
+          any_holes_ ? rebuild<true>(part, from) : rebuild<false>(part, from);
       if (first) surface_.last = top_left;
     }
     if (!good_) return false;
@@ -163,8 +165,8 @@ void StripReader::read_rows(const StripSegment& segment, int row, bool pair,
                             const StripTables& tables, StripStreams& streams) {
   const auto k = static_cast<std::size_t>(row);
   const std::uint8_t* const above = k == 0 ? surface_.holes.data() : holes_[k - 1].data();
-  RowReader even = {streams[0], missed_[0].data() + missed_count_[0], all(row),
-                    holes_[k].data(), above};
+  RowReader even = {streams[0], missed_[0].data() + missed_count_[0], all(row), holes_[k].data(),
+                    above};
   const auto begin = static_cast<std::size_t>(segment.begin);
   const auto end = static_cast<std::size_t>(segment.end);
   bool good = true;

@@ -83,7 +83,8 @@ class StripReader {
   std::vector<StripSegment> parts_;  // of the segment, between blocks without any reading
   bool any_holes_ = false;           // in the parts
   // Eight rows side by side, each one column later than the one above, so that what a pixel is
-  // predicted from lies before it: pixel (u, k) is number 8 (u + k) + k. First residuals, then ranks.
+  // predicted from lies before it: pixel (u, k) is number 8 (u + k) + k. First residuals, then
+  // ranks.
   std::vector<std::int16_t> skewed_;
   std::vector<std::int16_t> skewed_holes_;  // 0 or -1
 };

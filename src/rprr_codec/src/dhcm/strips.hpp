@@ -12,11 +12,11 @@
 
 namespace rprr::dhcm {
 
-/// The coder of the modes fast and default: groups of eight pixels, which are a row of a block. Which
-/// of the eight are not as guessed is one Huffman symbol, and what they are instead is one each, in
-/// streams of their own (doc/dhcm.md). So nothing that is decoded decides how the next bits are to
-/// be read: a decoder runs without branches on the picture, two rows at a time, and rebuilds eight
-/// rows at once afterwards.
+/// The coder of the modes fast and default: groups of eight pixels, which are a row of a block.
+/// Which of the eight are not as guessed is one Huffman symbol, and what they are instead is one
+/// each, in streams of their own (doc/dhcm.md). So nothing that is decoded decides how the next
+/// bits are to be read: a decoder runs without branches on the picture, two rows at a time, and
+/// rebuilds eight rows at once afterwards.
 constexpr int kStripRows = 8;
 /// Rows 0, 2, 4, 6 of all strips are one side, rows 1, 3, 5, 7 the other.
 constexpr std::size_t kStripSides = 2;
@@ -82,13 +82,14 @@ struct StripSurface {
 class StripCoder {
  public:
   void begin(const BlockGrid& grid, const BlockMask* mask);
-  /// Ranks (or readings) of a strip, 0 = no reading; rows are kStripRows rows of stride numbers, which
-  /// are whole groups.
+  /// Ranks (or readings) of a strip, 0 = no reading; rows are kStripRows rows of stride numbers,
+  /// which are whole groups.
   void strip(const std::uint16_t* ranks, std::size_t stride, int strip);
   bool empty() const { return sides_[0].group_count == 0; }
   /// Second pass, after the last strip: appends the tables to head and makes the streams, those of
-  /// groups of both sides, then those of residuals.
-  void write(BitWriter& head);
+  /// groups of both sides, then those of residuals. Quickly: tables are fitted to one side, with
+  /// words for all that may occur on the other.
+  void write(bool quick, BitWriter& head);
   ByteView stream(std::size_t index) const {
     return {streams_[index].bytes.data(), streams_[index].size};
   }
@@ -120,8 +121,8 @@ class StripCoder {
   using GroupTables = std::array<SetEncodeTable, kHoleClasses + 1>;
   void compare(const std::uint16_t* ranks, const StripSegment& segment);
   void collect(const StripSegment& segment, Side& side);
-  GroupTables write_group_tables(BitWriter& head) const;
-  EncodeTable write_residual_table(BitWriter& head) const;
+  GroupTables write_group_tables(bool half, BitWriter& head) const;
+  EncodeTable write_residual_table(bool half, BitWriter& head) const;
   static void write_groups(const Side& side, const GroupTables& tables, Stream& stream);
   static void write_residuals(const Side& side, const EncodeTable& table, Stream& stream);
 
