@@ -187,7 +187,7 @@ TEST(Dhcm, APayloadSaysWhatItIs) {
   frame.unit = 0.0002;
   const Result<DhcmInfo> info = dhcm_info(encoder.encode(frame));
   ASSERT_TRUE(info) << info.reason();
-  EXPECT_EQ(info->version, 2);
+  EXPECT_EQ(info->version, 3);
   EXPECT_EQ(info->mode, DhcmMode::kSmall);
   EXPECT_EQ(info->pixels, DhcmPixels::kCounts);
   EXPECT_FALSE(info->masked);

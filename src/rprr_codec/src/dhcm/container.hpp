@@ -24,6 +24,10 @@ struct Header {
 };
 
 constexpr int kVersion = 3;
+/// An encoder stores a body that is longer by more than this than the pixels as they are.
+constexpr std::size_t kStoredGain = 14;
+/// Bytes of the longest header and the checksum.
+constexpr std::size_t kMostAround = 18 + 4;
 
 /// Writes the header with room for the length of the body, which is appended by the caller.
 void begin(const Header& header, Bytes& out);

@@ -69,6 +69,16 @@ void StripCoder::strip(const std::uint16_t* ranks, std::size_t stride, int strip
   }
 }
 
+bool StripCoder::quiet() const {
+  std::size_t groups = 0;
+  std::size_t others = 0;
+  for (const Side& side : sides_) {
+    groups += side.group_count;
+    others += side.residual_count + side.change_count;
+  }
+  return 16 * others < groups;
+}
+
 // Residuals of a row, which of them count, and its holes. Its surface takes the place of the one
 // above.
 void StripCoder::compare(const std::uint16_t* ranks, const StripSegment& segment) {

@@ -86,6 +86,9 @@ class StripCoder {
   /// which are whole groups.
   void strip(const std::uint16_t* ranks, std::size_t stride, int strip);
   bool empty() const { return sides_[0].group_count == 0; }
+  /// Whether next to all groups are as guessed, each of which takes a bit: events, of which there
+  /// are none then, are shorter and as fast.
+  bool quiet() const;
   /// Second pass, after the last strip: appends the tables to head and makes the streams, those of
   /// groups of both sides, then those of residuals. Quickly: tables are fitted to one side, with
   /// words for all that may occur on the other.
