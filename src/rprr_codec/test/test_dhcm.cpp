@@ -225,6 +225,22 @@ TEST(Dhcm, ModesHaveNames) {
   EXPECT_FALSE(dhcm_mode_from_name(""));
 }
 
+TEST(Dhcm, MemoryIsReusedWhereItFits) {
+  const DepthFrame frame = synthetic::kinect_like(64, 48);
+  const Bytes payload = DhcmEncoder().encode(frame);
+  DhcmDecoder decoder;
+  const cv::Mat old(48, 64, CV_16UC1, cv::Scalar(7));
+  const Result<DepthFrame> there = decoder.decode(payload, old.size(), old);
+  ASSERT_TRUE(there) << there.reason();
+  EXPECT_EQ(there->counts.data, old.data);
+  EXPECT_TRUE(synthetic::same(old, frame.counts));
+  const cv::Mat other(48, 64, CV_8UC1, cv::Scalar(7));
+  const Result<DepthFrame> elsewhere = decoder.decode(payload, other.size(), other);
+  ASSERT_TRUE(elsewhere) << elsewhere.reason();
+  EXPECT_TRUE(synthetic::same(elsewhere->counts, frame.counts));
+  EXPECT_EQ(cv::countNonZero(other != 7), 0);
+}
+
 TEST(Dhcm, SizesAreCheckedBeforeAnythingIsAllocated) {
   DhcmEncoder encoder;
   const DepthFrame frame = synthetic::kinect_like(64, 48);

@@ -12,11 +12,11 @@ struct DhcmDecoder::Buffers {
   dhcm::BodyDecoder decoder;
 
   Result<DepthFrame> decode(const dhcm::Opened& opened, const BlockMask* mask,
-                            std::size_t max_pixels);
+                            std::size_t max_pixels, const cv::Mat& reuse = {});
 };
 
 Result<DepthFrame> DhcmDecoder::Buffers::decode(const dhcm::Opened& opened, const BlockMask* mask,
-                                                std::size_t max_pixels) {
+                                                std::size_t max_pixels, const cv::Mat& reuse) {
   const dhcm::Header& header = opened.header;
   if (header.masked != (mask != nullptr)) {
     return Error{mask != nullptr ? "depth payload of a whole frame where blocks were expected"
@@ -32,6 +32,7 @@ Result<DepthFrame> DhcmDecoder::Buffers::decode(const dhcm::Opened& opened, cons
   DepthFrame frame;
   frame.unit = header.unit;
   // Zeroed by blocks that are not sent; a whole frame writes every pixel.
+  frame.counts = reuse;
   frame.counts.create(header.height, header.width, CV_16UC1);
   if (mask != nullptr) frame.counts.setTo(0);
   const dhcm::CountsTarget target = {frame.counts.ptr<std::uint16_t>(), frame.counts.step1(),
@@ -64,13 +65,13 @@ Result<DepthFrame> DhcmDecoder::decode(ByteView payload) {
   return buffers_->decode(*opened, nullptr, max_pixels_);
 }
 
-Result<DepthFrame> DhcmDecoder::decode(ByteView payload, cv::Size expected) {
+Result<DepthFrame> DhcmDecoder::decode(ByteView payload, cv::Size expected, const cv::Mat& reuse) {
   const Result<dhcm::Opened> opened = open_counts(payload);
   if (!opened) return Error{opened.reason()};
   if (opened->header.width != expected.width || opened->header.height != expected.height) {
     return Error{"depth payload is of another size than expected"};
   }
-  return buffers_->decode(*opened, nullptr, max_pixels_);
+  return buffers_->decode(*opened, nullptr, max_pixels_, reuse);
 }
 
 Result<DepthFrame> DhcmDecoder::decode(ByteView payload, const BlockMask& blocks) {

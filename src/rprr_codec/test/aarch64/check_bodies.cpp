@@ -11,8 +11,8 @@
 
 namespace {
 
-using rprr::ByteView;
 using rprr::Bytes;
+using rprr::ByteView;
 
 constexpr std::size_t kHead = 14;  // of a payload whose unit is a float
 constexpr std::size_t kTail = 4;   // the checksum

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What codec objects keep: what doc/dhcm.md states, and no more after many frames than after one.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "rprr_codec/dhcm.hpp"
+#include "synthetic.hpp"
+
+namespace {
+
+std::size_t kept = 0;  // bytes of what was allocated and not yet freed, by this single thread
+constexpr std::size_t kHead = alignof(std::max_align_t);
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  auto* const block = static_cast<char*>(std::malloc(size + kHead));
+  if (block == nullptr) throw std::bad_alloc();
+  *reinterpret_cast<std::size_t*>(block) = size;
+  kept += size;
+  return block + kHead;
+}
+void operator delete(void* at) noexcept {
+  if (at == nullptr) return;
+  char* const block = static_cast<char*>(at) - kHead;
+  kept -= *reinterpret_cast<std::size_t*>(block);
+  std::free(block);
+}
+void operator delete(void* at, std::size_t) noexcept {
+  operator delete(at);
+}
+
+namespace rprr {
+namespace {
+
+constexpr std::size_t kPixels = 640 * 480;
+
+// Kept by what code makes.
+template <typename Code>
+std::size_t kept_by(const Code& code) {
+  const std::size_t before = kept;
+  code();
+  return kept - before;
+}
+
+TEST(DhcmMemory, IsWhatIsStatedAndFlat) {
+  const DepthFrame frames[] = {synthetic::kinect_like(640, 480), synthetic::noise(640, 480)};
+  for (const DhcmMode mode : {DhcmMode::kFast, DhcmMode::kDefault, DhcmMode::kSmall}) {
+    for (const DepthFrame& frame : frames) {
+      DhcmEncoder encoder(mode);
+      DhcmDecoder decoder;
+      Bytes payload;
+      const std::size_t for_payload = kept_by([&] { payload = encoder.encode(frame); });
+      EXPECT_LE(for_payload - payload.capacity(), std::size_t{1} << 20 | 48 * kPixels) << "stated";
+      const cv::Mat counts(frame.counts.size(), CV_16UC1);
+      const std::size_t by_decoder =
+          kept_by([&] { EXPECT_TRUE(decoder.decode(payload, counts.size(), counts)); });
+      EXPECT_LE(by_decoder, std::size_t{1} << 20) << "stated";
+      RecordProperty(std::string("kept_") + dhcm_mode_name(mode),
+                     std::to_string(for_payload - payload.capacity()));
+      const std::size_t more = kept_by([&] {
+        for (int i = 0; i < 20; ++i) {
+          encoder.encode(frame);
+          encoder.encode(synthetic::kinect_like(320, 240, static_cast<std::uint32_t>(i)));
+          EXPECT_TRUE(decoder.decode(payload, counts.size(), counts));
+        }
+      });
+      EXPECT_EQ(more, 0u);
+      std::printf("%s: encoder %zu, decoder %zu\n", dhcm_mode_name(mode),
+                  for_payload - payload.capacity(), by_decoder);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rprr
