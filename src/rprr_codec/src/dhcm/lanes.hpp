@@ -11,6 +11,7 @@ namespace rprr::dhcm {
 /// Eight 16-bit lanes in the compilers' portable vector type, which becomes SSE2, NEON or plain
 /// code by itself: the same bytes everywhere. Comparisons give 0 or -1 a lane.
 using Lanes = std::int16_t __attribute__((vector_size(16)));
+using UnsignedLanes = std::uint16_t __attribute__((vector_size(16)));
 constexpr int kLanes = 8;
 
 inline Lanes load(const std::int16_t* from) {
@@ -37,6 +38,15 @@ inline void store_bytes(Lanes lanes, std::uint8_t* to) {
 inline Lanes all(int value) {
   const auto v = static_cast<std::int16_t>(value);
   return Lanes{v, v, v, v, v, v, v, v};
+}
+/// Sums and differences modulo 2^16: those of signed lanes must not overflow.
+inline Lanes plus(Lanes a, Lanes b) {
+  return reinterpret_cast<Lanes>(reinterpret_cast<UnsignedLanes>(a) +
+                                 reinterpret_cast<UnsignedLanes>(b));
+}
+inline Lanes minus(Lanes a, Lanes b) {
+  return reinterpret_cast<Lanes>(reinterpret_cast<UnsignedLanes>(a) -
+                                 reinterpret_cast<UnsignedLanes>(b));
 }
 inline Lanes min(Lanes a, Lanes b) {
   return a < b ? a : b;

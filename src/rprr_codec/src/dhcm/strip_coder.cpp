@@ -100,8 +100,8 @@ void StripCoder::compare(const std::uint16_t* ranks, const StripSegment& segment
     const Lanes nw = shift_in(before, n);
     const Lanes w = load(fill + u - 1);
     const Lanes x = load(fill + u);
-    const Lanes guess = min(max(w + n - nw, min(w, n)), max(w, n));
-    const Lanes residual = x - guess;
+    const Lanes guess = min(max(plus(w, minus(n, nw)), min(w, n)), max(w, n));
+    const Lanes residual = minus(x, guess);
     before = n[kLanes - 1];
     store(residual, residual_.data() + u);
     const auto group = static_cast<std::size_t>(u / kLanes);

@@ -73,9 +73,9 @@ inline bool read_group(const StripTables& tables, std::size_t group, RowReader& 
   }
   row.holes[group] = holes;
   const auto set = static_cast<std::size_t>(entry >> 4);
-  const Lanes places = load(kStepped[set].data()) + row.first;
+  const Lanes places = plus(load(kStepped[set].data()), row.first);
   std::memcpy(row.to, &places, sizeof(places));
-  row.first += all(kLanes * kLanes);
+  row.first = plus(row.first, all(kLanes * kLanes));
   row.to += kSizes[set];
   return true;
 }
@@ -326,9 +326,9 @@ std::int16_t StripReader::rebuild(const StripSegment& part, std::size_t from) {
   Lanes x = all(0);
   Lanes n = all(0);
   const auto step = [&](int t, Lanes w, Lanes nw) {
-    const Lanes guess = min(max(n + (w - nw), min(w, n)), max(w, n));
+    const Lanes guess = min(max(plus(n, minus(w, nw)), min(w, n)), max(w, n));
     const Lanes residual = load(skewed + 8 * t);
-    Lanes seen = x = guess + residual;
+    Lanes seen = x = plus(guess, residual);
     if (kHoles) {
       const Lanes hole = load(holes + 8 * t);
       x = select(hole, n, x);
