@@ -205,6 +205,16 @@ TEST(DhcmStrips, PlacesOfSetsAreTheirBits) {
   }
 }
 
+TEST(DhcmStrips, LanesShiftAndBecomeBits) {
+  const Lanes lanes = {10, -11, 12, -13, 14, -15, 16, -17};
+  const Lanes shifted = shift_in(99, lanes);
+  EXPECT_EQ(shifted[0], 99);
+  for (int i = 1; i < kLanes; ++i) EXPECT_EQ(shifted[i], lanes[i - 1]);
+  EXPECT_EQ(bits_of_lanes(lanes < 0), 0b10101010);
+  EXPECT_EQ(plus(all(32767), all(1))[3], -32768);
+  EXPECT_EQ(minus(all(-32768), all(1))[3], 32767);
+}
+
 TEST(DhcmStrips, SetsHaveCompleteCodesThatComeBack) {
   std::mt19937 random(8);
   for (std::size_t used : {2u, 3u, 100u, 257u}) {
