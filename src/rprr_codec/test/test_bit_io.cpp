@@ -51,5 +51,24 @@ TEST(BitIo, LeftOverBytesAreNoticed) {
   EXPECT_TRUE(reader.finished());
 }
 
+TEST(BitIo, BothWritersWriteTheSame) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 100; ++trial) {
+    Bytes with_branches;
+    BitWriter writer(with_branches);
+    Bytes room(4 * 300 + 8, 0xAA);
+    PlainBitWriter plain(room.data());
+    for (int i = 0; i < 300; ++i) {
+      const int count = static_cast<int>(random() % 29);
+      const std::uint32_t value = random() & ((1u << count) - 1u);
+      writer.put(value, count);
+      plain.put(value, count);
+    }
+    writer.finish();
+    room.resize(static_cast<std::size_t>(plain.end() - room.data()));
+    EXPECT_EQ(room, with_branches);
+  }
+}
+
 }  // namespace
 }  // namespace rprr::dhcm

@@ -187,7 +187,7 @@ TEST(Dhcm, APayloadSaysWhatItIs) {
   frame.unit = 0.0002;
   const Result<DhcmInfo> info = dhcm_info(encoder.encode(frame));
   ASSERT_TRUE(info) << info.reason();
-  EXPECT_EQ(info->version, 2);
+  EXPECT_EQ(info->version, 3);
   EXPECT_EQ(info->mode, DhcmMode::kSmall);
   EXPECT_EQ(info->pixels, DhcmPixels::kCounts);
   EXPECT_FALSE(info->masked);
@@ -223,6 +223,22 @@ TEST(Dhcm, ModesHaveNames) {
   }
   EXPECT_FALSE(dhcm_mode_from_name("smaller"));
   EXPECT_FALSE(dhcm_mode_from_name(""));
+}
+
+TEST(Dhcm, MemoryIsReusedWhereItFits) {
+  const DepthFrame frame = synthetic::kinect_like(64, 48);
+  const Bytes payload = DhcmEncoder().encode(frame);
+  DhcmDecoder decoder;
+  const cv::Mat old(48, 64, CV_16UC1, cv::Scalar(7));
+  const Result<DepthFrame> there = decoder.decode(payload, old.size(), old);
+  ASSERT_TRUE(there) << there.reason();
+  EXPECT_EQ(there->counts.data, old.data);
+  EXPECT_TRUE(synthetic::same(old, frame.counts));
+  const cv::Mat other(48, 64, CV_8UC1, cv::Scalar(7));
+  const Result<DepthFrame> elsewhere = decoder.decode(payload, other.size(), other);
+  ASSERT_TRUE(elsewhere) << elsewhere.reason();
+  EXPECT_TRUE(synthetic::same(elsewhere->counts, frame.counts));
+  EXPECT_EQ(cv::countNonZero(other != 7), 0);
 }
 
 TEST(Dhcm, SizesAreCheckedBeforeAnythingIsAllocated) {

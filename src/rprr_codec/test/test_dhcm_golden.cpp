@@ -48,6 +48,9 @@ TEST(DhcmGolden, CountsAreAsTheyWere) {
     EXPECT_TRUE(synthetic::same(blocks->counts, synthetic::only(frame.counts, mask)));
   }
   expect_golden("ranked", DhcmEncoder().encode(synthetic::kinect_like(160, 120)));
+  // Large enough for tables fitted to every other row.
+  expect_golden("fast_large",
+                DhcmEncoder(DhcmMode::kFast).encode(synthetic::kinect_like(320, 240)));
   expect_golden("stored", DhcmEncoder().encode(synthetic::noise(9, 9)));
 }
 

@@ -87,7 +87,9 @@ class DhcmDecoder {
   /// Payloads of DhcmPixels::kCounts; others are errors here.
   Result<DepthFrame> decode(ByteView payload);
   /// The same, where another size than the expected one is an error before anything is allocated.
-  Result<DepthFrame> decode(ByteView payload, cv::Size expected);
+  /// reuse is memory for the image where it fits, as of a frame that is no longer needed: what it
+  /// showed is overwritten, also by payloads that turn out to be malformed.
+  Result<DepthFrame> decode(ByteView payload, cv::Size expected, const cv::Mat& reuse = {});
   /// A payload that was encoded with this mask; pixels of other blocks are 0.
   Result<DepthFrame> decode(ByteView payload, const BlockMask& blocks);
 

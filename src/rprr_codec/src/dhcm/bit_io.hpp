@@ -19,6 +19,13 @@ inline std::uint64_t load64(const std::uint8_t* bytes) {
   return value;
 }
 
+inline void store64(std::uint64_t value, std::uint8_t* bytes) {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  value = __builtin_bswap64(value);
+#endif
+  std::memcpy(bytes, &value, sizeof(value));
+}
+
 /// Appends bits to bytes, the least significant bit of a byte first. Between the first put and
 /// finish the vector is longer than what it holds.
 class BitWriter {
@@ -61,10 +68,35 @@ class BitWriter {
   int filled_ = 0;  // bits in the accumulator, below 32 between calls
 };
 
+/// The same without a branch a number, into room that the caller made: 8 bytes more than the bits
+/// take.
+class PlainBitWriter {
+ public:
+  explicit PlainBitWriter(std::uint8_t* to) : at_(to) {}
+
+  /// At most 56 bits; those of value above count must be 0.
+  void put(std::uint64_t value, int count) {
+    accumulator_ |= value << filled_;
+    filled_ += count;
+    store64(accumulator_, at_);
+    at_ += filled_ >> 3;
+    accumulator_ >>= filled_ & 56;
+    filled_ &= 7;
+  }
+  /// Behind the last byte, which is padded with zeros.
+  const std::uint8_t* end() const { return filled_ > 0 ? at_ + 1 : at_; }
+
+ private:
+  std::uint8_t* at_;
+  std::uint64_t accumulator_ = 0;
+  int filled_ = 0;  // bits in the accumulator, below 8 between calls
+};
+
 /// Reads what BitWriter wrote. Past the end it reads zeros and remembers that it did, so that inner
 /// loops need no check of their own.
 class BitReader {
  public:
+  BitReader() = default;
   explicit BitReader(ByteView bytes) : at_(bytes.data), end_(bytes.data + bytes.size) {}
 
   /// Makes at least 56 bits available to peek and skip.
@@ -111,8 +143,8 @@ class BitReader {
     }
   }
 
-  const std::uint8_t* at_;
-  const std::uint8_t* end_;
+  const std::uint8_t* at_ = nullptr;
+  const std::uint8_t* end_ = nullptr;
   std::uint64_t accumulator_ = 0;
   int filled_ = 0;
   std::ptrdiff_t padding_ = 0;  // zero bytes that were made up past the end

@@ -10,7 +10,7 @@
 namespace rprr::dhcm {
 
 /// How the pixels are written.
-enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kGroups = 2 };
+enum class Body : std::uint8_t { kStored = 0, kEvents = 1, kStrips = 2 };
 
 /// What stands before the pixels (doc/dhcm.md).
 struct Header {
@@ -23,7 +23,11 @@ struct Header {
   double unit = 0.001;
 };
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
+/// An encoder stores a body that is longer by more than this than the pixels as they are.
+constexpr std::size_t kStoredGain = 14;
+/// Bytes of the longest header and the checksum.
+constexpr std::size_t kMostAround = 18 + 4;
 
 /// Writes the header with room for the length of the body, which is appended by the caller.
 void begin(const Header& header, Bytes& out);

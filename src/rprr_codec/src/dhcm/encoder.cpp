@@ -1,189 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "dhcm/body_encoder.hpp"
 #include "dhcm/container.hpp"
-#include "dhcm/events.hpp"
 #include "dhcm/float_image.hpp"
-#include "dhcm/groups.hpp"
-#include "dhcm/values.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/camera.hpp"
 
 namespace rprr {
-namespace dhcm {
-namespace {
-
-// Second pass.
-void write_events(const EventCoder& coder, const EncodeTables& tables, BitWriter& bits) {
-  for (std::size_t i = 0; i < coder.event_count(); ++i) {
-    const Event& event = coder.events()[i];
-    const EncodeTable::Word& word = tables[event.context].words[event.symbol];
-    const int extra = event.symbol == kHoleSymbol ? 0 : extra_bits_of(event.symbol);
-    bits.put(word.code | static_cast<std::uint32_t>(event.extra) << word.length,
-             word.length + extra);
-    const Split run = split_number(event.run);
-    const EncodeTable::Word& length =
-        tables[static_cast<std::size_t>(run_table(event.context))].words[run.symbol];
-    bits.put(length.code, length.length);
-    if (run.extra_bits > 0) bits.put(run.extra, run.extra_bits);
-  }
-}
-
-}  // namespace
-}  // namespace dhcm
 
 struct DhcmEncoder::Buffers {
-  std::vector<std::uint8_t> occurs;    // by reading
-  std::vector<std::uint16_t> rank_of;  // by reading
-  std::vector<std::uint16_t> row;
-  dhcm::ValueTable values;
-  dhcm::EventCoder coder;
-  dhcm::Histograms histograms;
-  dhcm::EncodeTables tables;
-  dhcm::GroupCoder groups;
-  std::array<dhcm::Histogram, dhcm::kGroupContexts> group_histograms;
-  std::array<dhcm::EncodeTable, dhcm::kGroupContexts> group_tables;
+  dhcm::BodyEncoder encoder;
+  Bytes body;
 
   Bytes encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
                DhcmPixels pixels = DhcmPixels::kCounts);
-
- private:
-  void collect_groups(const DepthFrame& frame, const BlockMask* mask, bool ranked);
-  Bytes write_events(const dhcm::Header& header, bool ranked);
-  Bytes write_groups(const dhcm::Header& header, bool ranked);
-  void take_row(const DepthFrame& frame, int v, bool ranked);
-  bool rank_values(const DepthFrame& frame, dhcm::Segments& segments);
-  void collect_events(const DepthFrame& frame, dhcm::Segments& segments, bool ranked,
-                      const dhcm::DirectContexts& direct);
-  static Bytes stored(const DepthFrame& frame, dhcm::Segments& segments, dhcm::Header header);
 };
-
-bool DhcmEncoder::Buffers::rank_values(const DepthFrame& frame, dhcm::Segments& segments) {
-  occurs.assign(65536, 0);
-  for (int v = 0; v < frame.height(); ++v) {
-    const auto* in = frame.counts.ptr<std::uint16_t>(v);
-    for (const dhcm::Segment& segment : segments.of_row(v)) {
-      for (int u = segment.begin; u < segment.end; ++u) occurs[in[u]] = 1;
-    }
-  }
-  values.collect(occurs);
-  if (!values.pays(segments.pixels())) return false;
-  // What does not occur keeps what it had: nobody asks for it.
-  rank_of.resize(65536, 0);
-  std::uint16_t rank = 0;
-  for (const std::uint16_t value : values.values()) rank_of[value] = ++rank;
-  return true;
-}
-
-// Ranks or readings of a row; the buffer is longer than that.
-void DhcmEncoder::Buffers::take_row(const DepthFrame& frame, int v, bool ranked) {
-  const auto* in = frame.counts.ptr<std::uint16_t>(v);
-  const auto width = static_cast<std::size_t>(frame.width());
-  if (ranked) {
-    std::transform(in, in + width, row.begin(),
-                   [this](std::uint16_t value) { return rank_of[value]; });
-  } else {
-    std::copy(in, in + width, row.begin());
-  }
-}
-
-void DhcmEncoder::Buffers::collect_events(const DepthFrame& frame, dhcm::Segments& segments,
-                                          bool ranked, const dhcm::DirectContexts& direct) {
-  row.assign(static_cast<std::size_t>(frame.width() + dhcm::kLanes), 0);
-  coder.begin(frame.width(), direct);
-  for (int v = 0; v < frame.height(); ++v) {
-    take_row(frame, v, ranked);
-    coder.row(row.data(), segments.of_row(v));
-  }
-  coder.finish(histograms);
-}
-
-Bytes DhcmEncoder::Buffers::stored(const DepthFrame& frame, dhcm::Segments& segments,
-                                   dhcm::Header header) {
-  header.body = dhcm::Body::kStored;
-  Bytes out;
-  dhcm::begin(header, out);
-  out.reserve(out.size() + 2 * segments.pixels() + 4);
-  for (int v = 0; v < frame.height(); ++v) {
-    const auto* in = frame.counts.ptr<std::uint16_t>(v);
-    for (const dhcm::Segment& segment : segments.of_row(v)) {
-      for (int u = segment.begin; u < segment.end; ++u) {
-        out.push_back(static_cast<std::uint8_t>(in[u]));
-        out.push_back(static_cast<std::uint8_t>(in[u] >> 8));
-      }
-    }
-  }
-  dhcm::finish(out);
-  return out;
-}
-
-void DhcmEncoder::Buffers::collect_groups(const DepthFrame& frame, const BlockMask* mask,
-                                          bool ranked) {
-  const BlockGrid grid(frame.width(), frame.height());
-  row.assign(static_cast<std::size_t>(grid.columns) * dhcm::kLanes, 0);
-  groups.begin(grid, mask);
-  for (int v = 0; v < frame.height(); ++v) {
-    take_row(frame, v, ranked);
-    groups.row(row.data(), v);
-  }
-}
 
 Bytes DhcmEncoder::Buffers::encode(const DepthFrame& frame, const BlockMask* mask, DhcmMode mode,
                                    DhcmPixels pixels) {
-  dhcm::Segments segments(BlockGrid(frame.width(), frame.height()), mask);
-  const bool fast = mode == DhcmMode::kFast;
-  const dhcm::Header header = {fast ? dhcm::Body::kGroups : dhcm::Body::kEvents,
-                               mode,
-                               pixels,
-                               mask != nullptr,
-                               frame.width(),
-                               frame.height(),
-                               frame.unit};
-  const bool ranked = rank_values(frame, segments);
+  const dhcm::CountsView counts = {frame.counts.ptr<std::uint16_t>(), frame.counts.step1(),
+                                   frame.width(), frame.height()};
+  const dhcm::Body kind = encoder.encode(counts, mask, mode, body);
   Bytes out;
-  if (fast) {
-    collect_groups(frame, mask, ranked);
-    out = write_groups(header, ranked);
-  } else {
-    collect_events(frame, segments, ranked, {});
-    out = write_events(header, ranked);
-  }
-  if (mode == DhcmMode::kSmall) {
-    collect_events(frame, segments, ranked, coder.better_direct(histograms));
-    Bytes other = write_events(header, ranked);
-    if (other.size() < out.size()) out = std::move(other);
-  }
-  if (out.size() > 2 * segments.pixels() + 32) return stored(frame, segments, header);
+  out.reserve(body.size() + dhcm::kMostAround);
+  dhcm::begin({kind, mode, pixels, mask != nullptr, frame.width(), frame.height(), frame.unit},
+              out);
+  out.insert(out.end(), body.begin(), body.end());
   dhcm::finish(out);
-  return out;
-}
-
-Bytes DhcmEncoder::Buffers::write_events(const dhcm::Header& header, bool ranked) {
-  Bytes out;
-  dhcm::begin(header, out);
-  if (coder.event_count() == 0) return out;
-  dhcm::BitWriter bits(out);
-  bits.put(ranked ? 1 : 0, 1);
-  if (ranked) values.write(bits);
-  dhcm::write_tables(histograms.data(), dhcm::kTables, bits, tables.data());
-  dhcm::write_events(coder, tables, bits);
-  bits.finish();
-  return out;
-}
-
-Bytes DhcmEncoder::Buffers::write_groups(const dhcm::Header& header, bool ranked) {
-  Bytes out;
-  dhcm::begin(header, out);
-  if (groups.empty()) return out;
-  dhcm::BitWriter bits(out);
-  bits.put(ranked ? 1 : 0, 1);
-  if (ranked) values.write(bits);
-  groups.count(group_histograms);
-  dhcm::write_tables(group_histograms.data(), dhcm::kGroupContexts, bits, group_tables.data());
-  groups.write(group_tables, bits);
-  bits.finish();
   return out;
 }
 

@@ -9,12 +9,14 @@ namespace rprr::dhcm {
 namespace {
 
 constexpr int kFirstLength = 2;  // what the list of lengths starts from
-constexpr std::uint32_t kKraftOne = 1u << kMaxCodeLength;
+template <std::size_t kSize>
+constexpr std::uint32_t kKraftOne = 1u << kLongestWord<kSize>;
 
-std::uint32_t kraft_sum(const CodeLengths& lengths) {
+template <std::size_t kSize>
+std::uint32_t kraft_sum(const CodeLengthsOf<kSize>& lengths) {
   std::uint32_t sum = 0;
   for (const std::uint8_t length : lengths) {
-    if (length > 0) sum += kKraftOne >> length;
+    if (length > 0) sum += kKraftOne<kSize> >> length;
   }
   return sum;
 }
@@ -62,23 +64,26 @@ void minimum_redundancy(std::uint32_t* a, int n) {
 
 // Shortens the code space that too long words were cut to: lengthens the rarest shorter words until
 // the words fit, then gives back what is left over to the most frequent that can take it.
-void limit_lengths(const std::array<std::uint8_t, kSymbols>& rarest_first, int count,
-                   CodeLengths& lengths) {
-  for (auto& length : lengths) length = std::min<std::uint8_t>(length, kMaxCodeLength);
+template <std::size_t kSize>
+void limit_lengths(const std::array<std::uint16_t, kSize>& rarest_first, int count,
+                   CodeLengthsOf<kSize>& lengths) {
+  constexpr int kLongest = kLongestWord<kSize>;
+  constexpr std::uint32_t kOne = kKraftOne<kSize>;
+  for (auto& length : lengths) length = std::min<std::uint8_t>(length, kLongest);
   std::uint32_t sum = kraft_sum(lengths);
-  for (int i = 0; i < count && sum > kKraftOne;) {
+  for (int i = 0; i < count && sum > kOne;) {
     auto& length = lengths[rarest_first[static_cast<std::size_t>(i)]];
-    if (length < kMaxCodeLength) {
+    if (length < kLongest) {
       ++length;
-      sum -= kKraftOne >> length;
+      sum -= kOne >> length;
     } else {
       ++i;
     }
   }
   for (int i = count - 1; i >= 0; --i) {
     auto& length = lengths[rarest_first[static_cast<std::size_t>(i)]];
-    while (length > 1 && sum + (kKraftOne >> length) <= kKraftOne) {
-      sum += kKraftOne >> length;
+    while (length > 1 && sum + (kOne >> length) <= kOne) {
+      sum += kOne >> length;
       --length;
     }
   }
@@ -91,12 +96,12 @@ std::uint32_t reversed(std::uint32_t code, int length) {
 }
 
 // Canonical code words: shorter first, and by symbol within a length.
-template <typename Visit>
-void for_each_word(const CodeLengths& lengths, const Visit& visit) {
+template <std::size_t kSize, typename Visit>
+void for_each_word(const CodeLengthsOf<kSize>& lengths, const Visit& visit) {
   std::uint32_t code = 0;
-  for (int length = 1; length <= kMaxCodeLength; ++length) {
-    for (int symbol = 0; symbol < kSymbols; ++symbol) {
-      if (lengths[static_cast<std::size_t>(symbol)] != length) continue;
+  for (int length = 1; length <= kLongestWord<kSize>; ++length) {
+    for (std::size_t symbol = 0; symbol < kSize; ++symbol) {
+      if (lengths[symbol] != length) continue;
       visit(symbol, reversed(code, length), length);
       ++code;
     }
@@ -104,84 +109,86 @@ void for_each_word(const CodeLengths& lengths, const Visit& visit) {
   }
 }
 
-int used_symbols(const CodeLengths& lengths) {
+template <std::size_t kSize>
+int used_symbols(const CodeLengthsOf<kSize>& lengths) {
   return static_cast<int>(std::count_if(lengths.begin(), lengths.end(),
                                         [](std::uint8_t length) { return length > 0; }));
 }
 
 }  // namespace
 
-CodeLengths code_lengths(const Histogram& histogram) {
-  std::array<std::uint8_t, kSymbols> order{};
-  int count = 0;
-  for (int symbol = 0; symbol < kSymbols; ++symbol) {
-    if (histogram[static_cast<std::size_t>(symbol)] > 0) {
-      order[static_cast<std::size_t>(count++)] = static_cast<std::uint8_t>(symbol);
-    }
+template <std::size_t kSize>
+CodeLengthsOf<kSize> code_lengths(const HistogramOf<kSize>& histogram) {
+  std::array<std::uint16_t, kSize> order{};
+  std::size_t count = 0;
+  for (std::size_t symbol = 0; symbol < kSize; ++symbol) {
+    if (histogram[symbol] > 0) order[count++] = static_cast<std::uint16_t>(symbol);
   }
-  CodeLengths lengths{};
+  CodeLengthsOf<kSize> lengths{};
   if (count == 0) return lengths;
   if (count == 1) {
     lengths[order[0]] = 1;
     return lengths;
   }
   std::stable_sort(order.begin(), order.begin() + count,
-                   [&](std::uint8_t a, std::uint8_t b) { return histogram[a] < histogram[b]; });
-  std::array<std::uint32_t, kSymbols> work{};
-  for (int i = 0; i < count; ++i) {
-    work[static_cast<std::size_t>(i)] = histogram[order[static_cast<std::size_t>(i)]];
+                   [&](std::uint16_t a, std::uint16_t b) { return histogram[a] < histogram[b]; });
+  std::array<std::uint32_t, kSize> work{};
+  for (std::size_t i = 0; i < count; ++i) work[i] = histogram[order[i]];
+  minimum_redundancy(work.data(), static_cast<int>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    lengths[order[i]] = static_cast<std::uint8_t>(std::min(work[i], 255u));
   }
-  minimum_redundancy(work.data(), count);
-  for (int i = 0; i < count; ++i) {
-    lengths[order[static_cast<std::size_t>(i)]] =
-        static_cast<std::uint8_t>(std::min(work[static_cast<std::size_t>(i)], 255u));
-  }
-  limit_lengths(order, count, lengths);
+  limit_lengths(order, static_cast<int>(count), lengths);
   return lengths;
 }
 
-EncodeTable::EncodeTable(const CodeLengths& lengths) {
+template <std::size_t kSize>
+EncodeTableOf<kSize>::EncodeTableOf(const CodeLengthsOf<kSize>& lengths) {
   if (used_symbols(lengths) <= 1) return;
-  for_each_word(lengths, [&](int symbol, std::uint32_t code, int length) {
-    words[static_cast<std::size_t>(symbol)] = {static_cast<std::uint16_t>(code),
-                                               static_cast<std::uint8_t>(length)};
+  for_each_word(lengths, [&](std::size_t symbol, std::uint32_t code, int length) {
+    words[symbol] = {static_cast<std::uint16_t>(code), static_cast<std::uint8_t>(length)};
   });
 }
 
-bool DecodeTable::build(const CodeLengths& lengths) {
+template <std::size_t kSize>
+bool DecodeTableOf<kSize>::build(const CodeLengthsOf<kSize>& lengths) {
   const int used = used_symbols(lengths);
   if (used <= 1) {
-    std::uint8_t symbol = 0;
-    for (int s = 0; s < kSymbols; ++s) {
-      if (lengths[static_cast<std::size_t>(s)] > 1) return false;
-      if (lengths[static_cast<std::size_t>(s)] == 1) symbol = static_cast<std::uint8_t>(s);
+    Symbol symbol = 0;
+    for (std::size_t s = 0; s < kSize; ++s) {
+      if (lengths[s] > 1) return false;
+      if (lengths[s] == 1) symbol = static_cast<Symbol>(s);
     }
     entries.fill({symbol, 0});
     return true;
   }
-  if (kraft_sum(lengths) != kKraftOne) return false;
-  for_each_word(lengths, [&](int symbol, std::uint32_t code, int length) {
-    const Entry entry = {static_cast<std::uint8_t>(symbol), static_cast<std::uint8_t>(length)};
-    for (std::uint32_t i = code; i < kKraftOne; i += 1u << length) entries[i] = entry;
+  if (kraft_sum(lengths) != kKraftOne<kSize>) return false;
+  for_each_word(lengths, [&](std::size_t symbol, std::uint32_t code, int length) {
+    const Entry entry = {static_cast<Symbol>(symbol), static_cast<std::uint8_t>(length)};
+    for (std::uint32_t i = code; i < kKraftOne<kSize>; i += 1u << length) entries[i] = entry;
   });
   return true;
 }
 
 namespace {
 
+// Of how many lengths are listed.
+template <std::size_t kSize>
+constexpr int kCountBits = kSize < 64 ? 6 : 9;
+
 // Lengths are listed up to the last symbol that occurs. They mostly stay or grow by one from symbol
 // to symbol, which takes one or two bits: 0 as before, 10 one more, 110 one less, 1110 does not
 // occur, 1111 and the length in four bits; "before" is the last symbol that occurs. Behind a symbol
 // that does not occur stands one bit more: whether the next one does.
-template <typename Put>
-void list_lengths(const CodeLengths& lengths, const Put& put) {
-  int last = kSymbols;
-  while (last > 0 && lengths[static_cast<std::size_t>(last - 1)] == 0) --last;
-  put(static_cast<std::uint32_t>(last), 6);
+template <std::size_t kSize, typename Put>
+void list_lengths(const CodeLengthsOf<kSize>& lengths, const Put& put) {
+  std::size_t last = kSize;
+  while (last > 0 && lengths[last - 1] == 0) --last;
+  put(static_cast<std::uint32_t>(last), kCountBits<kSize>);
   int before = kFirstLength;
   bool in_gap = false;
-  for (int i = 0; i < last; ++i) {
-    const int length = lengths[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < last; ++i) {
+    const int length = lengths[i];
     if (in_gap) put(length != 0 ? 1 : 0, 1);
     if (length == 0) {
       if (!in_gap) put(0b0111, 4);
@@ -204,7 +211,7 @@ void list_lengths(const CodeLengths& lengths, const Put& put) {
 
 // A length in terms of the one before, 0 for a symbol that does not occur, or -1 where the bits
 // state no possible length.
-int read_length(BitReader& bits, int before) {
+int read_length(BitReader& bits, int before, int longest) {
   int length = before;
   if (bits.get(1) != 0) {
     if (bits.get(1) == 0) {
@@ -217,30 +224,33 @@ int read_length(BitReader& bits, int before) {
       length = static_cast<int>(bits.get(4));
     }
   }
-  return length >= 1 && length <= kMaxCodeLength ? length : -1;
+  return length >= 1 && length <= longest ? length : -1;
 }
 
 }  // namespace
 
-int list_bits(const CodeLengths& lengths) {
+template <std::size_t kSize>
+int list_bits(const CodeLengthsOf<kSize>& lengths) {
   int sum = 0;
   list_lengths(lengths, [&](std::uint32_t, int count) { sum += count; });
   return sum;
 }
 
-void write_lengths(const CodeLengths& lengths, BitWriter& bits) {
+template <std::size_t kSize>
+void write_lengths(const CodeLengthsOf<kSize>& lengths, BitWriter& bits) {
   list_lengths(lengths, [&](std::uint32_t value, int count) { bits.put(value, count); });
 }
 
-bool read_lengths(BitReader& bits, CodeLengths& lengths) {
+template <std::size_t kSize>
+bool read_lengths(BitReader& bits, CodeLengthsOf<kSize>& lengths) {
   lengths.fill(0);
-  const std::uint32_t last = bits.get(6);
-  if (last > kSymbols) return false;
+  const std::uint32_t last = bits.get(kCountBits<kSize>);
+  if (last > kSize) return false;
   int before = kFirstLength;
   bool in_gap = false;
   for (std::uint32_t i = 0; i < last; ++i) {
     if (in_gap && bits.get(1) == 0) continue;
-    const int length = read_length(bits, before);
+    const int length = read_length(bits, before, kLongestWord<kSize>);
     if (length < 0) return false;
     lengths[i] = static_cast<std::uint8_t>(length);
     in_gap = length == 0;
@@ -248,5 +258,18 @@ bool read_lengths(BitReader& bits, CodeLengths& lengths) {
   }
   return !bits.overrun();
 }
+
+template CodeLengthsOf<kSymbols> code_lengths(const HistogramOf<kSymbols>&);
+template struct EncodeTableOf<kSymbols>;
+template struct DecodeTableOf<kSymbols>;
+template int list_bits(const CodeLengthsOf<kSymbols>&);
+template void write_lengths(const CodeLengthsOf<kSymbols>&, BitWriter&);
+template bool read_lengths(BitReader&, CodeLengthsOf<kSymbols>&);
+template CodeLengthsOf<kSetSymbols> code_lengths(const HistogramOf<kSetSymbols>&);
+template struct EncodeTableOf<kSetSymbols>;
+template struct DecodeTableOf<kSetSymbols>;
+template int list_bits(const CodeLengthsOf<kSetSymbols>&);
+template void write_lengths(const CodeLengthsOf<kSetSymbols>&, BitWriter&);
+template bool read_lengths(BitReader&, CodeLengthsOf<kSetSymbols>&);
 
 }  // namespace rprr::dhcm

@@ -70,8 +70,8 @@ void classify_north(const std::int16_t* fill, const std::int16_t* hole, int begi
   for (int u = begin; u < end; u += kLanes) {
     const Lanes n = load(fill + u);
     const Lanes ne = load(fill + u + 1);
-    const Lanes d = n - load(fill + u - 1);
-    const Lanes e = ne - n;
+    const Lanes d = minus(n, load(fill + u - 1));
+    const Lanes e = minus(ne, n);
     store(d, step + u);
     // What is large is held, so that no sum overflows.
     const Lanes held_d = max(min(d, all(50)), all(-50));
@@ -99,13 +99,13 @@ void compare_row(const RowView& row, int begin, int end, std::int16_t* place,
     const Lanes w = load(row.fill + u - 1);
     const Lanes n = load(row.above + u);
     const Lanes step = load(row.step + u);
-    const Lanes guess = min(max(w + step, min(w, n)), max(w, n));
-    const Lanes lift = w - (n - step);
+    const Lanes guess = min(max(plus(w, step), min(w, n)), max(w, n));
+    const Lanes lift = minus(w, minus(n, step));
     const Lanes held = max(min(lift, all(7)), all(-7)) + all(kWestLevel);
     const Lanes west_hole = load(row.hole + u - 1) != 0;
     const Lanes at = load_bytes(row.north + u) * kWestClasses + (held & ~west_hole);
     const Lanes hole = load(row.hole + u) != 0;
-    const Lanes difference = load(row.fill + u) - guess;
+    const Lanes difference = minus(load(row.fill + u), guess);
     const Lanes in_hole = at == kNorthHole * kWestClasses + kWestHole;
     store(at, place + u);
     store(difference, residual + u);

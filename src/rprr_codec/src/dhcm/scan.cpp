@@ -36,8 +36,11 @@ void Segments::list(int block_row, bool top) {
 }
 
 const std::vector<Segment>& Segments::of_row(int row) {
-  const int block_row = row / kBlockSide;
-  const int in_block = std::min(row % kBlockSide, 1);  // all rows but a block's first are alike
+  // All rows of whole images but the first are alike.
+  const int block_row = mask_ == nullptr ? std::min(row, 1) : row / kBlockSide;
+  const int in_block =
+      mask_ == nullptr ? 1
+                       : std::min(row % kBlockSide, 1);  // all rows but a block's first are alike
   const int key = 2 * block_row + in_block;
   if (key != listed_row_) list(block_row, in_block == 0);
   listed_row_ = key;

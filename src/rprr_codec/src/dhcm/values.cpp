@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dhcm/values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dhcm/huffman.hpp"
@@ -23,8 +24,11 @@ void for_each_step_change(const std::vector<std::uint16_t>& values, const Visit&
 
 void ValueTable::collect(const std::vector<std::uint8_t>& occurs) {
   values_.clear();
-  for (std::size_t value = 1; value < occurs.size(); ++value) {
-    if (occurs[value] != 0) values_.push_back(static_cast<std::uint16_t>(value));
+  for (std::size_t eight = 0; eight < occurs.size(); eight += 8) {
+    if (load64(occurs.data() + eight) == 0) continue;  // most do not occur
+    for (std::size_t value = std::max<std::size_t>(eight, 1); value < eight + 8; ++value) {
+      if (occurs[value] != 0) values_.push_back(static_cast<std::uint16_t>(value));
+    }
   }
 }
 

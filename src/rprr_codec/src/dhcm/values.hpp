@@ -12,7 +12,7 @@ namespace rprr::dhcm {
 /// that measure disparity know some hundred of the 65535.
 class ValueTable {
  public:
-  /// From marks of the values that occur; mark 0 is not looked at.
+  /// From 65536 marks of the values that occur; mark 0 is not looked at.
   void collect(const std::vector<std::uint8_t>& occurs);
   /// Whether ranks instead of values save more than the table costs, for so many readings.
   bool pays(std::size_t readings) const;

@@ -14,7 +14,8 @@ class Dhcm : public DepthCodec {
   }
 
   bool decode(ByteView coded, cv::Mat& counts) override {
-    Result<DepthFrame> frame = decoder_.decode(coded, counts.size());
+    // Into the memory given, like the others.
+    const Result<DepthFrame> frame = decoder_.decode(coded, counts.size(), counts);
     if (frame) counts = frame->counts;
     return static_cast<bool>(frame);
   }
