@@ -83,7 +83,7 @@ FrameEncoder::FrameEncoder(FrameCodecOptions options, ColourLayers layers)
       layers_(std::move(layers)),
       ladders_{ladder_of(options_, layers_, false), ladder_of(options_, layers_, true)},
       last_rung_(ladders_[0].usual()),
-      depth_(std::make_unique<DhcmEncoder>()),
+      depth_(std::make_unique<DhcmEncoder>(options_.depth_mode)),
       own_decoder_(make_local_colour_decoder()) {
 }
 

@@ -17,6 +17,10 @@ Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
   options.measure_independent = nh.param("measure_independent", options.measure_independent);
   options.target_psnr = nh.param("target_psnr", options.target_psnr);
 
+  const Result<DhcmMode> mode =
+      dhcm_mode_from_name(nh.param<std::string>("depth_mode", dhcm_mode_name(options.depth_mode)));
+  if (!mode) return Error{"~depth_mode: " + mode.reason()};
+  options.depth_mode = *mode;
   const auto named = nh.param<std::string>("objective", "fixed");
   const std::optional<Objective> objective = objective_of(named);
   if (!objective) return Error{"~objective is '" + named + "', must be fixed, map or view"};

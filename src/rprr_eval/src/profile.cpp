@@ -71,6 +71,15 @@ std::string choose(const YAML::Node& file, const char* key, const char* first, T
   return {};
 }
 
+std::string read_depth_mode(const YAML::Node& file, DhcmMode& mode) {
+  std::string word = dhcm_mode_name(mode);
+  read(file, "depth_mode", word);
+  const Result<DhcmMode> found = dhcm_mode_from_name(word);
+  if (!found) return "depth_mode: " + found.reason();
+  mode = *found;
+  return {};
+}
+
 std::string read_objective(const YAML::Node& file, Objective& objective) {
   if (!file["objective"]) return {};
   std::string word;
@@ -95,6 +104,8 @@ std::string read_rest(const YAML::Node& file, Profile& profile) {
   read(file, "align", profile.station.synthesis.align);
   std::string wrong =
       choose(file, "protocol", "preview", true, "samples", false, profile.use_previews);
+  if (!wrong.empty()) return wrong;
+  wrong = read_depth_mode(file, profile.codec.depth_mode);
   if (!wrong.empty()) return wrong;
   wrong = read_objective(file, profile.codec.objective);
   if (!wrong.empty()) return wrong;

@@ -41,6 +41,7 @@ class FrameDecoder {
 };
 
 struct FrameCodecOptions {
+  DhcmMode depth_mode = DhcmMode::kDefault;
   std::string colour_codec = "pgf";
   int colour_quality = 6;  // the codec's own scale: of whole frames and of detail
   /// Objective kView: the picture is about as good as a whole image of this quality (the codec's
