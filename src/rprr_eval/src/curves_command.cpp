@@ -21,6 +21,7 @@ struct CurvesArguments {
   std::string profile = "default";
   std::string json;
   std::string pairs_json;
+  std::string markdown;
   std::string sheets;
   std::size_t every = 1;
   int points = 16;
@@ -74,7 +75,7 @@ class CurvesRun {
       std::move(pairs.begin(), pairs.end(), std::back_inserter(all));
     }
     if (arguments_.folders.size() > 1) report("all", all);
-    return {};
+    return write_markdown() ? std::string() : "cannot write " + arguments_.markdown;
   }
 
  private:
@@ -135,7 +136,15 @@ class CurvesRun {
     comparison["view_quality"] = ours_.codec.view_quality;
     comparison["paper_quality"] = paper_.codec.colour_quality;
     json_.write(comparison);
+    comparisons_.push_back(comparison);
     std::cerr << "\n" << name << ": " << comparison_text(comparison) << "\n";
+  }
+
+  bool write_markdown() const {
+    if (arguments_.markdown.empty()) return true;
+    std::ofstream file(arguments_.markdown);
+    file << comparison_markdown(comparisons_);
+    return file.flush().good();
   }
 
   CurvesArguments arguments_;
@@ -143,6 +152,7 @@ class CurvesRun {
   JsonOutput json_;
   std::unique_ptr<JsonOutput> pairs_json_;
   WholeFrames whole_;
+  std::vector<nlohmann::json> comparisons_;
 };
 
 int run_curves(const CurvesArguments& arguments) {
@@ -183,6 +193,7 @@ void add_curves_command(CLI::App& app, int& exit_code) {
   command->add_option("--json", arguments->json, "write the JSON lines here");
   command->add_option("--pairs-json", arguments->pairs_json,
                       "write every point of every pair here, one JSON object a pair");
+  command->add_option("--markdown", arguments->markdown, "write tables for people here");
   command
       ->add_option("--sheet", arguments->sheets,
                    "write a contact sheet of each folder's middle pair at equal bytes into this "

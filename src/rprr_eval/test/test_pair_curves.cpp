@@ -36,7 +36,6 @@ class PairCurvesTest : public testing::Test {
       ASSERT_TRUE(curves) << curves.reason();
       pairs_.push_back(std::move(*curves));
     }
-    const auto runner = PairRunner::create(*ours);
     expected_ = *PairRunner(std::move(*PairRunner::create(*ours))).run(*folder, 0, 1);
     truth_ = folder->load(1)->bgr;
   }
@@ -45,6 +44,12 @@ class PairCurvesTest : public testing::Test {
     truth_.release();
   }
   void SetUp() override { ASSERT_EQ(pairs_.size(), 2u); }
+
+  static json comparison_of(const std::string& folder) {
+    json comparison = compare_curves(pairs_, "webp");
+    comparison["folder"] = folder;
+    return comparison;
+  }
 
   static std::vector<PairCurves> pairs_;
   static PairResult expected_;
@@ -154,11 +159,16 @@ TEST_F(PairCurvesTest, ComparisonsHaveEveryFieldAndAreDeterministic) {
   }
   EXPECT_EQ(comparison, compare_curves(pairs_, "webp"));
   EXPECT_FALSE(comparison_text(comparison).empty());
+  EXPECT_NE(comparison_markdown(std::vector<json>{comparison_of("one"), comparison_of("two")})
+                .find("| one | two |"),
+            std::string::npos);
 }
 
 TEST_F(PairCurvesTest, NothingToCompareIsNoError) {
-  const json comparison = compare_curves({}, "webp");
+  json comparison = compare_curves({}, "webp");
   EXPECT_EQ(comparison["pairs"], 0);
+  comparison["folder"] = "nothing";
+  EXPECT_FALSE(comparison_markdown(std::vector<json>(1, comparison)).empty());
   EXPECT_FALSE(comparison_text(comparison).empty());
 }
 

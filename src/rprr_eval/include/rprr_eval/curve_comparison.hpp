@@ -26,6 +26,9 @@ nlohmann::json compare_curves(const std::vector<PairCurves>& pairs, const std::s
 /// What compare_curves found, for people.
 std::string comparison_text(const nlohmann::json& comparison);
 
+/// Several of them side by side, for a document.
+std::string comparison_markdown(const std::vector<nlohmann::json>& comparisons);
+
 /// One pair at equal bytes: b's own image, independent coding with that codec, the paper's profile,
 /// ours with objectives view and map, each by its finest point that is within the bytes, and the
 /// newly seen content. The bytes are those of paper's at its profile's quality, or the least that
