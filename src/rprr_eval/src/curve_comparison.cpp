@@ -66,6 +66,37 @@ void add_shortfall(const PairCurves& pair, const MethodCurve& ours, const Method
   all.short_pairs.push_back(entry);
 }
 
+// The same at the bytes of each of the rival's points, of which every pair has as many.
+json on_points(const Pairs& pairs, const std::string& codec) {
+  json result = json::array();
+  const MethodCurve* first = pairs.empty() ? nullptr : pairs.front()->find(codec);
+  for (std::size_t i = 0; first != nullptr && i < first->points.size(); ++i) {
+    std::vector<double> psnr_gains, ssim_gains;
+    for (const PairCurves* pair : pairs) {
+      const RatePoint& rival = pair->find(codec)->points[i];
+      const MethodCurve& ours = *pair->find("view");
+      const auto bytes = static_cast<double>(rival.bytes);
+      const auto gain = [&](const Curve& curve, double value) {
+        const auto own = curve.at(bytes);
+        return own ? *own - value : -kInfinity;
+      };
+      psnr_gains.push_back(gain(psnr_curve(ours), rival.psnr));
+      ssim_gains.push_back(gain(ssim_curve(ours), rival.ssim));
+    }
+    const auto share = [](const std::vector<double>& gains, double tolerance) {
+      const auto on = [&](double value) { return value >= -tolerance; };
+      return share_of(static_cast<std::size_t>(std::count_if(gains.begin(), gains.end(), on)),
+                      gains.size());
+    };
+    result.push_back({{"setting", first->points[i].setting},
+                      {"share_psnr", share(psnr_gains, kOnCurveDecibels)},
+                      {"share_ssim", share(ssim_gains, kOnCurveSsim)},
+                      {"median_psnr_gain", median_or_null(psnr_gains)},
+                      {"median_ssim_gain", median_or_null(ssim_gains)}});
+  }
+  return result;
+}
+
 // `view` against whole frames through the same codec, at every byte count of the latter.
 json on_curve(const Pairs& pairs, const std::string& codec) {
   Shortfalls all;
@@ -93,6 +124,7 @@ json on_curve(const Pairs& pairs, const std::string& codec) {
           {"worst_ssim", worst_finite(all.ssim)},
           {"median_psnr", median_or_null(all.psnr)},
           {"median_ssim", median_or_null(all.ssim)},
+          {"points", on_points(pairs, codec)},
           {"short", all.short_pairs}};
 }
 

@@ -44,6 +44,20 @@ class Table {
   std::string text_;
 };
 
+std::string points_table(const std::vector<json>& folders) {
+  const json& first = folders.front()["on_curve"];
+  Table table(folders, "`view` at the bytes of independent, " + first["codec"].get<std::string>() +
+                           " at quality: gain in PSNR (pairs on it), in SSIM (likewise)");
+  for (std::size_t i = 0; i < first["points"].size(); ++i) {
+    table.add(number(first["points"][i]["setting"], 0), [i](const json& folder) {
+      const json& point = folder["on_curve"]["points"][i];
+      return number(point["median_psnr_gain"], 1) + " dB (" + percent(point["share_psnr"]) + "), " +
+             number(point["median_ssim_gain"], 3) + " (" + percent(point["share_ssim"]) + ")";
+    });
+  }
+  return table.text();
+}
+
 std::string on_curve_table(const std::vector<json>& folders) {
   Table table(folders, "`view` on independent's curve, same codec");
   const auto add = [&](const std::string& label, const Cell& cell) {
@@ -65,7 +79,7 @@ std::string on_curve_table(const std::vector<json>& folders) {
   });
   add("pairs that begin above independent's least",
       [](const json& found) { return number(found["begin_late"], 0); });
-  return table.text();
+  return table.text() + points_table(folders);
 }
 
 std::string ratios_table(const std::vector<json>& folders, const std::string& method,

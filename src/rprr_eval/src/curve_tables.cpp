@@ -17,13 +17,23 @@ std::string count(const json& value) {
   return cell(value, 0);
 }
 
+std::string points_text(const json& points) {
+  TextTable table({"at its quality", "PSNR gain", "pairs on it", "SSIM gain", "pairs on it"});
+  for (const json& point : points) {
+    table.add({count(point["setting"]), cell(point["median_psnr_gain"], 2) + " dB",
+               percent(point["share_psnr"]), cell(point["median_ssim_gain"], 4),
+               percent(point["share_ssim"])});
+  }
+  return table.text();
+}
+
 std::string on_curve_text(const json& found) {
   return "`view` at least on the curve of independent " + found["codec"].get<std::string>() +
          " from its least to its most bytes: PSNR " + percent(found["share_psnr"]) + ", SSIM " +
          percent(found["share_ssim"]) + ", both " + percent(found["share_both"]) + " of " +
          count(found["pairs"]) + " pairs\n  worst shortfall " + cell(found["worst_psnr"], 2) +
          " dB, SSIM " + cell(found["worst_ssim"], 4) + "; " + count(found["begin_late"]) +
-         " pairs begin above independent's least\n";
+         " pairs begin above independent's least\n" + points_text(found["points"]);
 }
 
 std::string ratio_text(const std::string& title, const json& methods, const json& pairs) {

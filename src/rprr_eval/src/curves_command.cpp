@@ -63,7 +63,8 @@ class CurvesRun {
   // Empty, or what went wrong.
   std::string run() {
     if (!json_.good() || (pairs_json_ && !pairs_json_->good())) return "no output";
-    std::vector<PairCurves> all;
+    std::vector<PairCurves> known;
+    std::vector<std::string> names;
     for (const std::string& path : arguments_.folders) {
       const Result<TumFolder> folder = open_tum_folder(path);
       if (!folder) return folder.reason();
@@ -72,9 +73,11 @@ class CurvesRun {
       const std::string wrong = measure(*folder, name, pairs);
       if (!wrong.empty()) return wrong;
       report(name, pairs);
-      std::move(pairs.begin(), pairs.end(), std::back_inserter(all));
+      if (!pairs.front().overlap) continue;
+      names.push_back(name);
+      std::move(pairs.begin(), pairs.end(), std::back_inserter(known));
     }
-    if (arguments_.folders.size() > 1) report("all", all);
+    if (names.size() > 1) report(joined(names), known);
     return write_markdown() ? std::string() : "cannot write " + arguments_.markdown;
   }
 
@@ -107,6 +110,12 @@ class CurvesRun {
     }
     std::cerr << "\n";
     return {};
+  }
+
+  static std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : " + ") + name;
+    return text;
   }
 
   // Of the pair in the middle of the folder.
@@ -174,7 +183,8 @@ void add_curves_command(CLI::App& app, int& exit_code) {
       "curves",
       "The picture per byte: every pair through our profile with objectives view and map, the "
       "profile paper, and independent coding by PGF, JPEG, WebP and JPEG XL, each over its whole "
-      "range of bytes. One JSON object a folder, and one for all of them; tables on standard "
+      "range of bytes. One JSON object a folder, and one for all with ground truth together; "
+      "tables on standard "
       "error");
   command->add_option("folder", arguments->folders, "TUM-layout folders")->required();
   command
