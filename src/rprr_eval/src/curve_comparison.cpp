@@ -28,6 +28,35 @@ json name_of(const PairCurves& pair) {
   return {{"folder", pair.folder}, {"step", pair.step}, {"a", pair.a}, {"b", pair.b}};
 }
 
+// What another method has over the codec's whole frames at equal bytes of colour, depth and all
+// else aside: what the layers bring, and what the codecs are like.
+json at_colour_bytes(const Pairs& pairs, const std::string& method, const std::string& codec) {
+  json result = json::array();
+  const MethodCurve* first = pairs.empty() ? nullptr : pairs.front()->find(codec);
+  for (std::size_t i = 0; first != nullptr && i < first->points.size(); ++i) {
+    std::vector<double> psnr_gains, ssim_gains;
+    for (const PairCurves* pair : pairs) {
+      const MethodCurve* own = pair->find(method);
+      if (own == nullptr) continue;
+      std::vector<CurvePoint> psnr, ssim;
+      for (const RatePoint& point : own->points) {
+        psnr.push_back({static_cast<double>(point.bytes_colour), point.psnr});
+        ssim.push_back({static_cast<double>(point.bytes_colour), point.ssim});
+      }
+      const RatePoint& rival = pair->find(codec)->points[i];
+      const auto bytes = static_cast<double>(rival.bytes_colour);
+      const auto own_psnr = Curve(psnr).at(bytes);
+      const auto own_ssim = Curve(ssim).at(bytes);
+      psnr_gains.push_back(own_psnr ? *own_psnr - rival.psnr : -kInfinity);
+      ssim_gains.push_back(own_ssim ? *own_ssim - rival.ssim : -kInfinity);
+    }
+    result.push_back({{"setting", first->points[i].setting},
+                      {"psnr_gain", median_or_null(psnr_gains)},
+                      {"ssim_gain", median_or_null(ssim_gains)}});
+  }
+  return result;
+}
+
 struct Shortfalls {
   std::vector<double> psnr, ssim;
   json short_pairs = json::array();
@@ -226,6 +255,10 @@ json compare_curves(const std::vector<PairCurves>& all, const std::string& codec
     accepted += pair.accepted ? 1 : 0;
     if (pair.overlap && *pair.overlap >= kMuchOverlap) much_overlap.push_back(&pair);
   }
+  json colour = json::object();
+  for (const char* method : {"view", "pgf", "jpeg", "jxl", "webp"}) {
+    if (codec != method) colour[method] = at_colour_bytes(pairs, method, codec);
+  }
   const double pixels = all.empty() ? 1.0 : all.front().image.area();
   return {{"pairs", pairs.size()},
           {"accepted", accepted},
@@ -233,6 +266,7 @@ json compare_curves(const std::vector<PairCurves>& all, const std::string& codec
           {"on_curve", on_curve(pairs, codec)},
           {"equal_quality", equal_quality(pairs)},
           {"equal_quality_overlap_half", equal_quality(much_overlap)},
+          {"at_colour_bytes", colour},
           {"against_paper", against_paper(pairs)},
           {"depth", depth_over_pairs(pairs)},
           {"at_profile", medians_at_profile(pairs)},

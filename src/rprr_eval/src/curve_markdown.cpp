@@ -167,6 +167,26 @@ std::string profile_table(const std::vector<json>& folders) {
   return table.text();
 }
 
+std::string colour_table(const std::vector<json>& folders, const std::string& field, int digits,
+                         const std::string& unit) {
+  const json& first = folders.front();
+  Table table(folders, "at the colour bytes of " + first["on_curve"]["codec"].get<std::string>() +
+                           " at quality: gain in " + unit + " of view / pgf / jpeg / jxl");
+  for (std::size_t i = 0; i < first["on_curve"]["points"].size(); ++i) {
+    table.add(number(first["on_curve"]["points"][i]["setting"], 0), [=](const json& folder) {
+      std::string cell;
+      for (const char* method : {"view", "pgf", "jpeg", "jxl"}) {
+        const json& methods = folder["at_colour_bytes"];
+        const bool known = methods.contains(method) && i < methods[method].size();
+        cell += (cell.empty() ? "" : " / ") +
+                number(known ? methods[method][i][field] : json(), digits);
+      }
+      return cell;
+    });
+  }
+  return table.text();
+}
+
 }  // namespace
 
 std::string comparison_markdown(const std::vector<json>& folders) {
@@ -176,7 +196,9 @@ std::string comparison_markdown(const std::vector<json>& folders) {
                       "bytes of `view` over independent's at equal PSNR of the whole frame") +
          ratios_table(folders, "map",
                       "bytes of `map` over independent's at equal PSNR of newly seen content") +
-         paper_table(folders) + depth_table(folders) + profile_table(folders);
+         colour_table(folders, "psnr_gain", 1, "PSNR, dB,") +
+         colour_table(folders, "ssim_gain", 3, "SSIM") + paper_table(folders) +
+         depth_table(folders) + profile_table(folders);
 }
 
 }  // namespace rprr

@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "commands.hpp"
 #include "json_output.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct CurvesArguments {
   std::vector<std::string> folders;
+  std::vector<std::string> from;
   std::vector<std::size_t> steps = {1};
   std::string profile = "default";
   std::string json;
@@ -63,21 +65,23 @@ class CurvesRun {
   // Empty, or what went wrong.
   std::string run() {
     if (!json_.good() || (pairs_json_ && !pairs_json_->good())) return "no output";
-    std::vector<PairCurves> known;
-    std::vector<std::string> names;
+    std::vector<std::vector<PairCurves>> folders;
     for (const std::string& path : arguments_.folders) {
       const Result<TumFolder> folder = open_tum_folder(path);
       if (!folder) return folder.reason();
       const std::string name = std::filesystem::path(path + "/").parent_path().filename().string();
-      std::vector<PairCurves> pairs;
-      const std::string wrong = measure(*folder, name, pairs);
+      const std::string wrong = measure(*folder, name, folders.emplace_back());
       if (!wrong.empty()) return wrong;
-      report(name, pairs);
-      if (!pairs.front().overlap) continue;
-      names.push_back(name);
-      std::move(pairs.begin(), pairs.end(), std::back_inserter(known));
+      report(name, folders.back());
     }
-    if (names.size() > 1) report(joined(names), known);
+    for (const std::string& path : arguments_.from) {
+      const std::string wrong = read(path, folders);
+      if (!wrong.empty()) return wrong;
+    }
+    if (!arguments_.from.empty()) {
+      for (const auto& pairs : folders) report(pairs.front().folder, pairs);
+    }
+    report_together(folders);
     return write_markdown() ? std::string() : "cannot write " + arguments_.markdown;
   }
 
@@ -112,10 +116,33 @@ class CurvesRun {
     return {};
   }
 
-  static std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : " + ") + name;
-    return text;
+  // What an earlier run wrote with --pairs-json; empty, or what went wrong.
+  static std::string read(const std::string& path, std::vector<std::vector<PairCurves>>& folders) {
+    std::ifstream file(path);
+    if (!file) return "cannot read " + path;
+    for (std::string line; std::getline(file, line);) {
+      Result<PairCurves> pair =
+          pair_curves_of(nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false));
+      if (!pair) return path + ": " + pair.reason();
+      const auto same = [&](const auto& pairs) { return pairs.front().folder == pair->folder; };
+      auto pairs = std::find_if(folders.begin(), folders.end(), same);
+      if (pairs == folders.end()) pairs = folders.emplace(folders.end());
+      pairs->push_back(std::move(*pair));
+    }
+    return {};
+  }
+
+  // Those with ground truth, if there are several.
+  void report_together(const std::vector<std::vector<PairCurves>>& folders) {
+    std::string name;
+    std::vector<PairCurves> all;
+    int count = 0;
+    for (const auto& pairs : folders) {
+      if (!pairs.front().overlap) continue;
+      name += (count++ > 0 ? " + " : "") + pairs.front().folder;
+      all.insert(all.end(), pairs.begin(), pairs.end());
+    }
+    if (count > 1) report(name, all);
   }
 
   // Of the pair in the middle of the folder.
@@ -137,8 +164,9 @@ class CurvesRun {
   void report(const std::string& name, const std::vector<PairCurves>& pairs) {
     nlohmann::json comparison = compare_curves(pairs, ours_.codec.colour_codec);
     comparison["folder"] = name;
-    comparison["steps"] = arguments_.steps;
-    comparison["every"] = arguments_.every;
+    std::set<std::size_t> steps;
+    for (const PairCurves& pair : pairs) steps.insert(pair.step);
+    comparison["steps"] = steps;
     comparison["profile"] = ours_.name;
     comparison["colour_codec"] = ours_.codec.colour_codec;
     comparison["colour_quality"] = ours_.codec.colour_quality;
@@ -165,7 +193,10 @@ class CurvesRun {
 };
 
 int run_curves(const CurvesArguments& arguments) {
-  cv::setNumThreads(1);
+  if (arguments.folders.empty() && arguments.from.empty()) {
+    return std::cerr << "name a folder, or give --from\n", 1;
+  }
+  cv::setNumThreads(1);  // figures are per core
   const Result<Profile> ours = load_profile(arguments.profile);
   if (!ours) return std::cerr << ours.reason() << "\n", 1;
   const Result<Profile> paper = load_profile("paper");
@@ -186,7 +217,12 @@ void add_curves_command(CLI::App& app, int& exit_code) {
       "range of bytes. One JSON object a folder, and one for all with ground truth together; "
       "tables on standard "
       "error");
-  command->add_option("folder", arguments->folders, "TUM-layout folders")->required();
+  auto* folders = command->add_option("folder", arguments->folders, "TUM-layout folders");
+  command
+      ->add_option("--from", arguments->from,
+                   "instead of folders: compare anew what --pairs-json wrote earlier")
+      ->excludes(folders)
+      ->check(CLI::ExistingFile);
   command
       ->add_option("--step", arguments->steps, "pairs entry k with entry k+N; several may be given")
       ->check(CLI::PositiveNumber)

@@ -42,6 +42,7 @@ Result<MethodCurve> WholeFrames::measure(WholeColour& codec, const PoseFrame& b)
   frame.camera = b.camera;
   const Result<bool> prepared = encoder_.prepare(b.depth, b.bgr, frame);
   if (!prepared) return Error{prepared.reason()};
+  set_usual_times(frame.report);
   const Result<DepthFrame> decoded_depth = DhcmDecoder().decode(frame.depth);
   if (!decoded_depth) return Error{decoded_depth.reason()};
   frame.colour_codec = curve.method;

@@ -55,11 +55,17 @@ struct PairCurves {
 };
 
 nlohmann::json to_json(const PairCurves& pair);
+/// The way back, without pictures. Errors: not what to_json writes.
+Result<PairCurves> pair_curves_of(const nlohmann::json& pair);
 
 /// A figure of every point over its bytes; points without it are left out.
 Curve psnr_curve(const MethodCurve& method);
 Curve ssim_curve(const MethodCurve& method);
 Curve psnr_new_curve(const MethodCurve& method);
+
+/// Times in a report as a robot's are, always the same: their digits take bytes, and a run must
+/// give the bytes of the run before.
+void set_usual_times(FrameReport& report);
 
 /// Whole frames coded by themselves: depth as every profile codes it, colour by every codec over
 /// its whole scale. Keeps the last frame's, since it is b in several pairs.
