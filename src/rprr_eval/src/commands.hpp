@@ -7,6 +7,7 @@ namespace rprr {
 
 /// Each adds a subcommand; what it runs sets exit_code.
 void add_pairs_command(CLI::App& app, int& exit_code);
+void add_curves_command(CLI::App& app, int& exit_code);
 void add_codec_command(CLI::App& app, int& exit_code);
 void add_preview_command(CLI::App& app, int& exit_code);
 void add_decision_command(CLI::App& app, int& exit_code);

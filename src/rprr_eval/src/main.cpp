@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = 0;
   rprr::add_pairs_command(app, exit_code);
+  rprr::add_curves_command(app, exit_code);
   rprr::add_codec_command(app, exit_code);
   rprr::add_preview_command(app, exit_code);
   rprr::add_decision_command(app, exit_code);

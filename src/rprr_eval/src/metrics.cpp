@@ -84,6 +84,30 @@ DepthQuality depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth) {
   return quality;
 }
 
+PredictedDepthQuality predicted_depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth,
+                                              const BlockMask& received) {
+  PredictedDepthQuality quality;
+  if (received.empty()) return quality;
+  double sum = 0.0;
+  std::size_t off = 0;
+  for (int v = 0; v < truth.height(); ++v) {
+    for (int u = 0; u < truth.width(); ++u) {
+      if (received[received.grid().index_of_pixel(u, v)]) continue;
+      const double expected = truth.metres(u, v);
+      const double found = rebuilt.metres(u, v);
+      if (expected <= 0.0 || found <= 0.0) continue;
+      const double relative = (found - expected) / expected;
+      ++quality.pixels;
+      sum += relative * relative;
+      off += std::abs(relative) > 0.05 ? 1 : 0;
+    }
+  }
+  if (quality.pixels == 0) return quality;
+  quality.relative_rmse = std::sqrt(sum / static_cast<double>(quality.pixels));
+  quality.share_off = static_cast<double>(off) / static_cast<double>(quality.pixels);
+  return quality;
+}
+
 double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
                const Camera& b_camera, const Pose& m_ab) {
   int valid = 0;

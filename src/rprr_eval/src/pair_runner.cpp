@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "rprr_redundancy/decision.hpp"
-#include "rprr_redundancy/outgoing.hpp"
 #include "rprr_sensor/motion.hpp"
 #include "rprr_station/provenance.hpp"
 
@@ -119,10 +118,12 @@ OutgoingDecision decide(PairResult& result, const PoseFramePtr& a, const PoseFra
   return decisions.empty() ? OutgoingDecision{} : decisions.front();
 }
 
-EncodedFrame frame_to_encode(const PoseFrame& b, const FrameDecision& at_b,
-                             const OutgoingDecision& decision, const PairResult& result) {
+EncodedFrame frame_to_encode(const PreparedPair& pair) {
+  const OutgoingDecision& decision = pair.decision;
+  const PairResult& result = pair.result;
+  const FrameDecision& at_b = result.exchange.at_dependent;
   EncodedFrame encoded;
-  encoded.camera = b.camera;
+  encoded.camera = pair.b->camera;
   encoded.sparse = decision.sparse;
   if (decision.sparse) {
     encoded.reference = kA;
@@ -142,17 +143,55 @@ EncodedFrame frame_to_encode(const PoseFrame& b, const FrameDecision& at_b,
   return encoded;
 }
 
-std::string send(const EncodedFrame& encoded, const PoseFrame& frame, const std::string& robot,
-                 std::uint32_t exchange, Station& station, Stamp now,
-                 std::optional<RebuiltFrame>& out) {
+Result<RebuiltFrame> send(const EncodedFrame& encoded, const PoseFrame& frame,
+                          const std::string& robot, std::uint32_t exchange, Station& station,
+                          Stamp now) {
   const Bytes bytes = serialise(encoded);
   StationOutput output =
       station.receive({robot, frame.stamp, frame.frame_id, exchange, bytes}, now);
   if (output.frames.empty()) {
-    return "the station rebuilt nothing of " + robot +
-           (output.errors.empty() ? std::string() : ": " + output.errors.front().reason);
+    return Error{"the station rebuilt nothing of " + robot +
+                 (output.errors.empty() ? std::string() : ": " + output.errors.front().reason)};
   }
-  out = std::move(output.frames.front());
+  return std::move(output.frames.front());
+}
+
+// Against ground truth, where there is some.
+void judge_pose(const TumFolder& folder, PreparedPair& pair) {
+  PairResult& result = pair.result;
+  const auto& world_a = folder.entries[result.a].world_from_camera;
+  const auto& world_b = folder.entries[result.b].world_from_camera;
+  if (!world_a || !world_b) return;
+  const Pose truth_ab = relative_motion(*world_a, *world_b);
+  result.overlap = overlap(pair.a->depth, pair.a->camera, pair.b->depth, pair.b->camera, truth_ab);
+  if (result.exchange.pose) {
+    result.pose_error = pose_error(result.exchange.pose->motion, truth_ab);
+  }
+}
+
+void judge_view(const PoseFrame& b, PairResult& result) {
+  const RebuiltFrame& rebuilt = result.rebuilt;
+  result.psnr = *psnr(rebuilt.bgr, b.bgr);
+  result.ssim = ssim(rebuilt.bgr, b.bgr);
+  result.psnr_predicted =
+      psnr(rebuilt.bgr, b.bgr, rebuilt.provenance < static_cast<double>(kReceivedColour));
+  result.depth = depth_quality(rebuilt.depth, b.depth);
+  result.depth_exact = received_depth_is_exact(rebuilt, b.depth);
+}
+
+// The rival: b's whole frame through the same codecs. Empty, or what went wrong.
+std::string judge_independent(const PoseFrame& b, FrameEncoder& encoder, FrameDecoder& decoder,
+                              PairResult& result) {
+  EncodedFrame independent;
+  independent.camera = b.camera;
+  const Result<bool> done = encoder.encode(b.depth, b.bgr, independent);
+  if (!done) return done.reason();
+  const Bytes bytes = serialise(independent, &result.independent);
+  result.independent.total = encoded_message_bytes(kFrameB.size(), bytes.size());
+  const Result<DecodedFrame> decoded = decoder.decode(independent);
+  if (!decoded) return decoded.reason();
+  result.independent_psnr = *psnr(decoded->bgr, b.bgr);
+  result.independent_ssim = ssim(decoded->bgr, b.bgr);
   return {};
 }
 
@@ -170,7 +209,7 @@ Result<PairRunner> PairRunner::create(const Profile& profile) {
   return PairRunner(std::make_unique<Robots>(profile, std::move(*encoder)));
 }
 
-Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::size_t b) {
+Result<PreparedPair> PairRunner::prepare(const TumFolder& folder, std::size_t a, std::size_t b) {
   Robots& robots = *robots_;
   robots.now += from_seconds(1.0);
   const Result<RgbdImage> image_a = folder.load(a);
@@ -178,63 +217,55 @@ Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::
   const Result<RgbdImage> image_b = folder.load(b);
   if (!image_b) return Error{image_b.reason()};
   const Camera camera = rounded_for_wire(folder.camera);
-  const PoseFramePtr frame_a = pose_frame(*image_a, camera, robots.now, kFrameA);
-  const PoseFramePtr frame_b = pose_frame(*image_b, camera, robots.now, kFrameB);
-  PairResult result;
-  result.a = a;
-  result.b = b;
+  PreparedPair pair;
+  pair.a = pose_frame(*image_a, camera, robots.now, kFrameA);
+  pair.b = pose_frame(*image_b, camera, robots.now, kFrameB);
+  pair.result.a = a;
+  pair.result.b = b;
 
   // a sends its frame whole, as the reference.
   EncodedFrame whole_a;
   whole_a.camera = camera;
-  Result<bool> done = robots.encoder.encode(frame_a->depth, frame_a->bgr, whole_a);
+  const Result<bool> done = robots.encoder.encode(pair.a->depth, pair.a->bgr, whole_a);
   if (!done) return Error{done.reason()};
-  std::optional<RebuiltFrame> at_station;
-  std::string wrong = send(whole_a, *frame_a, kA, 0, robots.station, robots.now, at_station);
+  const Result<RebuiltFrame> at_station = send(whole_a, *pair.a, kA, 0, robots.station, robots.now);
+  if (!at_station) return Error{at_station.reason()};
+
+  // a and b agree on their pose, a predicts, b validates.
+  pair.result.exchange = robots.harness.run(pair.a, pair.b);
+  pair.decision = decide(pair.result, pair.a, pair.b, robots.decider, robots.validator,
+                         robots.outgoing, robots.now);
+  pair.result.blocks_predicted = pair.decision.blocks_predicted;
+  pair.result.blocks_validated = pair.decision.blocks_validated;
+  judge_pose(folder, pair);
+  return pair;
+}
+
+Result<EncodedFrame> PairRunner::encode(const PreparedPair& pair, FrameEncoder& encoder) {
+  EncodedFrame encoded = frame_to_encode(pair);
+  const Result<bool> done = encoder.encode(pair.b->depth, pair.b->bgr, encoded);
+  if (!done) return Error{done.reason()};
+  return encoded;
+}
+
+Result<RebuiltFrame> PairRunner::rebuild(const PreparedPair& pair, const EncodedFrame& encoded) {
+  return send(encoded, *pair.b, kB, pair.decision.exchange, robots_->station, robots_->now);
+}
+
+Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::size_t b) {
+  Result<PreparedPair> pair = prepare(folder, a, b);
+  if (!pair) return Error{pair.reason()};
+  const Result<EncodedFrame> encoded = encode(*pair, robots_->encoder);
+  if (!encoded) return Error{encoded.reason()};
+  Result<RebuiltFrame> rebuilt = rebuild(*pair, *encoded);
+  if (!rebuilt) return Error{rebuilt.reason()};
+  PairResult& result = pair->result;
+  result.rebuilt = std::move(*rebuilt);
+  judge_view(*pair->b, result);
+  const std::string wrong =
+      judge_independent(*pair->b, robots_->encoder, robots_->independent_decoder, result);
   if (!wrong.empty()) return Error{wrong};
-
-  // a and b agree on their pose, a predicts, b validates, encodes and sends.
-  result.exchange = robots.harness.run(frame_a, frame_b);
-  const OutgoingDecision decision = decide(result, frame_a, frame_b, robots.decider,
-                                           robots.validator, robots.outgoing, robots.now);
-  result.blocks_predicted = decision.blocks_predicted;
-  result.blocks_validated = decision.blocks_validated;
-  EncodedFrame encoded = frame_to_encode(*frame_b, result.exchange.at_dependent, decision, result);
-  done = robots.encoder.encode(frame_b->depth, frame_b->bgr, encoded);
-  if (!done) return Error{done.reason()};
-  wrong = send(encoded, *frame_b, kB, decision.exchange, robots.station, robots.now, at_station);
-  if (!wrong.empty()) return Error{wrong};
-  result.rebuilt = std::move(*at_station);
-
-  // The rival: b's whole frame through the same codecs.
-  EncodedFrame independent;
-  independent.camera = camera;
-  done = robots.encoder.encode(frame_b->depth, frame_b->bgr, independent);
-  if (!done) return Error{done.reason()};
-  const Bytes bytes = serialise(independent, &result.independent);
-  result.independent.total = encoded_message_bytes(kFrameB.size(), bytes.size());
-  const Result<DecodedFrame> decoded = robots.independent_decoder.decode(independent);
-  if (!decoded) return Error{decoded.reason()};
-
-  const cv::Mat& truth = frame_b->bgr;
-  result.psnr = *psnr(result.rebuilt.bgr, truth);
-  result.ssim = ssim(result.rebuilt.bgr, truth);
-  result.psnr_predicted = psnr(result.rebuilt.bgr, truth,
-                               result.rebuilt.provenance < static_cast<double>(kReceivedColour));
-  result.independent_psnr = *psnr(decoded->bgr, truth);
-  result.independent_ssim = ssim(decoded->bgr, truth);
-  result.depth = depth_quality(result.rebuilt.depth, frame_b->depth);
-  result.depth_exact = received_depth_is_exact(result.rebuilt, frame_b->depth);
-  const auto& world_a = folder.entries[a].world_from_camera;
-  const auto& world_b = folder.entries[b].world_from_camera;
-  if (world_a && world_b) {
-    const Pose truth_ab = relative_motion(*world_a, *world_b);
-    result.overlap = overlap(frame_a->depth, camera, frame_b->depth, camera, truth_ab);
-    if (result.exchange.pose) {
-      result.pose_error = pose_error(result.exchange.pose->motion, truth_ab);
-    }
-  }
-  return result;
+  return std::move(result);
 }
 
 }  // namespace rprr

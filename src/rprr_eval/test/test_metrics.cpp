@@ -79,6 +79,26 @@ TEST(Ssim, ForgivesBrightnessMoreThanStructure) {
   EXPECT_GT(ssim(truth + cv::Scalar::all(20), truth), ssim(noisy, truth) + 0.02);
 }
 
+TEST(PredictedDepthQuality, OnlyWhatWasNotReceivedCounts) {
+  const DepthFrame truth = plane(2000);
+  DepthFrame rebuilt = plane(2000);
+  rebuilt.counts.rowRange(0, 40) = 2020;   // 1%
+  rebuilt.counts.rowRange(40, 80) = 2200;  // 10%
+  const BlockGrid grid(kCamera.width, kCamera.height);
+  BlockMask received(grid);
+  for (int block = 0; block < grid.count(); ++block) {
+    if (grid.rect(block).y >= 80) received.set(block);
+  }
+  const PredictedDepthQuality quality = predicted_depth_quality(rebuilt, truth, received);
+  EXPECT_EQ(quality.pixels, 80u * 160u);
+  EXPECT_NEAR(quality.relative_rmse, std::sqrt((0.01 * 0.01 + 0.1 * 0.1) / 2.0), 1e-9);
+  EXPECT_DOUBLE_EQ(quality.share_off, 0.5);
+  rebuilt.counts.rowRange(40, 80) = 0;
+  EXPECT_EQ(predicted_depth_quality(rebuilt, truth, received).pixels, 40u * 160u);
+  EXPECT_EQ(predicted_depth_quality(rebuilt, truth, BlockMask(grid, true)).pixels, 0u);
+  EXPECT_EQ(predicted_depth_quality(rebuilt, truth, {}).pixels, 0u) << "all received";
+}
+
 TEST(DepthQualityTest, ErrorInMillimetresAndCoverageOverTheTruthsPixels) {
   const DepthFrame truth = plane(2000);
   EXPECT_EQ(depth_quality(truth, truth).rmse_mm, 0.0);

@@ -28,6 +28,24 @@ TEST(Tools, ExplainThemselvesAndRefuseNonsense) {
   EXPECT_FALSE(run("synthetic_to_bag", "/no/such/folder/x.bag --frames 1 --width 64 --height 48"));
 }
 
+TEST(Tools, ExposureSwingsAsFarAsOneAsks) {
+  const TemporaryFolder temporary;
+  const std::string size = " --frames 3 --width 96 --height 64 --exposure-swing ";
+  std::vector<double> ratios;
+  for (const char* swing : {"0", "0.25"}) {
+    const std::string walk = temporary.path(swing);
+    ASSERT_TRUE(run("synthetic_to_folder", walk + size + swing));
+    const auto folder = open_tum_folder(walk);
+    ASSERT_TRUE(folder) << folder.reason();
+    const auto first = folder->load(std::size_t{0});
+    const auto last = folder->load(std::size_t{2});
+    ASSERT_TRUE(first && last);
+    ratios.push_back(cv::mean(last->bgr)[1] / cv::mean(first->bgr)[1]);
+  }
+  EXPECT_GT(ratios[1], 1.05 * ratios[0]);
+  EXPECT_FALSE(run("synthetic_to_folder", temporary.path("dark") + size + "1.5"));
+}
+
 TEST(Tools, SyntheticFolderBecomesBagsOfTheSameDepth) {
   const TemporaryFolder temporary;
   const std::string walk = temporary.path("walk");

@@ -16,6 +16,7 @@ struct Options {
   int width = 640;
   int height = 480;
   double rate = 5.0;
+  double exposure_swing = 0.08;
 };
 
 int make(const Options& options) {
@@ -30,7 +31,8 @@ int make(const Options& options) {
   const auto walk = rprr::single_walk(options.frames, options.seed);
   for (std::size_t k = 0; k < walk.size(); ++k) {
     // As automatic exposure wanders.
-    sensor.colour.exposure = exposure * (1.0 + 0.08 * std::sin(0.7 * static_cast<double>(k)));
+    sensor.colour.exposure =
+        exposure * (1.0 + options.exposure_swing * std::sin(0.7 * static_cast<double>(k)));
     const auto image = rprr::sense(room, sensor, walk[k], static_cast<std::uint32_t>(k));
     const rprr::Stamp stamp = rprr::from_seconds(1.0 + static_cast<double>(k) / options.rate);
     const auto added = writer->add(stamp, image, walk[k]);
@@ -55,6 +57,11 @@ int main(int argc, char** argv) {
   app.add_option("--height", options.height, "pixels")->capture_default_str();
   app.add_option("--rate", options.rate, "frames per second")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--exposure-swing", options.exposure_swing,
+                 "share by which the exposure wanders up and down, in 9 frames once round: 0.25 "
+                 "makes neighbours as different as two cameras that meter for themselves")
+      ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return make(options);

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/se3.hpp"
@@ -24,6 +25,17 @@ struct DepthQuality {
   double coverage = 0.0;  // share of b's valid pixels that are rebuilt
 };
 DepthQuality depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth);
+
+/// Depth that a station derived instead of receiving it, against b's own: over pixels outside of
+/// the received blocks where both have depth.
+struct PredictedDepthQuality {
+  std::size_t pixels = 0;
+  double relative_rmse = 0.0;  // of the difference over b's depth
+  double share_off = 0.0;      // off by more than 5%
+};
+/// received: the blocks whose depth is b's own; an empty mask: all of them.
+PredictedDepthQuality predicted_depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth,
+                                              const BlockMask& received);
 
 /// Share of a's valid block-centre pixels whose surface b sees under the true pose: they project
 /// into b on a valid depth within 2 cm + 1.5% of it.

@@ -11,7 +11,7 @@
 #include "rprr_eval/metrics.hpp"
 #include "rprr_eval/profile.hpp"
 #include "rprr_geometry/result.hpp"
-#include "rprr_redundancy/prediction.hpp"
+#include "rprr_redundancy/outgoing.hpp"
 #include "rprr_sensor/tum_folder.hpp"
 
 namespace rprr {
@@ -36,6 +36,13 @@ struct PairResult {
 
 nlohmann::json to_json(const PairResult& result);
 
+/// A pair up to what b sends, before it is encoded.
+struct PreparedPair {
+  PairResult result;  // what is known so far: exchange, blocks, pose error, overlap
+  PoseFramePtr a, b;
+  OutgoingDecision decision;
+};
+
 /// Two robots and a station in one process, without ROS: the state machines and codecs that the
 /// nodelets run. Robots keep between pairs what they learn of each other.
 class PairRunner {
@@ -46,6 +53,13 @@ class PairRunner {
   /// Entry a of the folder as the reference's frame, entry b as the dependent's. Errors: images
   /// that cannot be read, a station that rebuilt nothing.
   Result<PairResult> run(const TumFolder& folder, std::size_t a, std::size_t b);
+
+  /// run in steps, for whoever tries several settings: the exchange and b's decision once, the
+  /// station then holding a's frame as the profile codes it, and b's frame encoded and rebuilt as
+  /// often as one likes until the next pair. Errors as above.
+  Result<PreparedPair> prepare(const TumFolder& folder, std::size_t a, std::size_t b);
+  static Result<EncodedFrame> encode(const PreparedPair& pair, FrameEncoder& encoder);
+  Result<RebuiltFrame> rebuild(const PreparedPair& pair, const EncodedFrame& encoded);
 
  private:
   struct Robots;

@@ -3,9 +3,8 @@
 
 #ifdef RPRR_HAVE_JXL
 #include <jxl/decode_cxx.h>
-#include <jxl/encode_cxx.h>
 
-#include <algorithm>
+#include "codecs/jpeg_xl_output.hpp"
 
 namespace rprr {
 namespace {
@@ -20,7 +19,7 @@ class JpegXl : public DepthCodec {
   bool encode(const cv::Mat& counts, Bytes& coded) override {
     JxlEncoder* const encoder = encoder_.get();
     JxlEncoderReset(encoder);
-    return describe(counts.size()) && add(counts) && drain(coded);
+    return describe(counts.size()) && add(counts) && drain_jpeg_xl(encoder, buffer_, coded);
   }
 
   bool decode(ByteView coded, cv::Mat& counts) override {
@@ -64,22 +63,6 @@ class JpegXl : public DepthCodec {
         JxlEncoderAddImageFrame(frame, &kGrey16, counts.data, size) == JXL_ENC_SUCCESS;
     JxlEncoderCloseInput(encoder_.get());
     return good;
-  }
-
-  bool drain(Bytes& coded) {
-    buffer_.resize(std::max<std::size_t>(buffer_.size(), 1 << 20));
-    std::uint8_t* next = buffer_.data();
-    std::size_t left = buffer_.size();
-    JxlEncoderStatus status;
-    while ((status = JxlEncoderProcessOutput(encoder_.get(), &next, &left)) ==
-           JXL_ENC_NEED_MORE_OUTPUT) {
-      const std::size_t used = buffer_.size() - left;
-      buffer_.resize(buffer_.size() * 2);
-      next = buffer_.data() + used;
-      left = buffer_.size() - used;
-    }
-    coded.assign(buffer_.data(), next);
-    return status == JXL_ENC_SUCCESS;
   }
 
   int effort_;
