@@ -19,28 +19,31 @@ constexpr int kNone = -1;
 
 // Where much is sent, its blocks are scattered and a finer base for all is worth more than detail
 // for some.
-constexpr std::array<Rung, 33> kManyBlocks{
-    {{16, 20, kNone, 0},  {16, 50, kNone, 0}, {8, 20, kNone, 0},  {8, 50, kNone, 0},
-     {4, 10, kNone, 0},   {4, 18, kNone, 0},  {4, 25, kNone, 1},  {4, 37, kNone, 1},
-     {4, 50, kNone, 2},   {2, 10, kNone, 4},  {2, 17, kNone, 5},  {2, 25, kNone, 7},
-     {2, 37, kNone, 11},  {2, 50, kNone, 15}, {2, 62, kNone, 18}, {2, 75, kNone, 22},
-     {1, 15, kNone, 25},  {1, 20, kNone, 29}, {1, 25, kNone, 33}, {1, 30, kNone, 38},
-     {1, 35, kNone, 42},  {1, 40, kNone, 46}, {1, 45, kNone, 50}, {1, 50, kNone, 54},
-     {1, 55, kNone, 58},  {1, 60, kNone, 62}, {1, 66, kNone, 67}, {1, 72, kNone, 73},
-     {1, 78, kNone, 78},  {1, 84, kNone, 84}, {1, 90, kNone, 90}, {1, 95, kNone, 95},
-     {1, 100, kNone, 100}}};
+constexpr std::array<Rung, 39> kManyBlocks{
+    {{16, 20, kNone, 0}, {16, 50, kNone, 0}, {8, 20, kNone, 0},   {8, 50, kNone, 0},
+     {4, 10, kNone, 0},  {4, 18, kNone, 0},  {4, 25, kNone, 1},   {4, 37, kNone, 1},
+     {4, 50, kNone, 2},  {2, 10, kNone, 4},  {2, 17, kNone, 5},   {2, 25, kNone, 7},
+     {2, 37, kNone, 11}, {2, 50, kNone, 15}, {2, 62, kNone, 18},  {2, 75, kNone, 22},
+     {1, 15, kNone, 25}, {1, 20, kNone, 29}, {1, 25, kNone, 33},  {1, 30, kNone, 38},
+     {1, 35, kNone, 42}, {1, 40, kNone, 46}, {1, 45, kNone, 50},  {1, 50, kNone, 54},
+     {1, 55, kNone, 58}, {1, 60, kNone, 62}, {1, 66, kNone, 67},  {1, 72, kNone, 73},
+     {1, 76, kNone, 76}, {1, 79, kNone, 79}, {1, 82, kNone, 82},  {1, 85, kNone, 85},
+     {1, 88, kNone, 88}, {1, 90, kNone, 90}, {1, 92, kNone, 92},  {1, 94, kNone, 94},
+     {1, 96, kNone, 96}, {1, 98, kNone, 98}, {1, 100, kNone, 100}}};
 
-constexpr std::array<Rung, 29> kFewBlocks{
-    {{16, 20, kNone, 0},  {16, 50, kNone, 0}, {8, 20, kNone, 0},  {16, 50, 0, 0},
-     {8, 20, 5, 1},       {8, 20, 10, 2},     {8, 50, 20, 4},     {8, 50, 30, 7},
-     {4, 50, 30, 11},     {2, 10, 30, 15},    {2, 17, 30, 18},    {2, 25, 30, 22},
-     {2, 37, 30, 25},     {2, 50, 30, 27},    {1, 25, kNone, 33}, {1, 30, kNone, 38},
-     {1, 35, kNone, 42},  {1, 40, kNone, 46}, {1, 45, kNone, 50}, {1, 50, kNone, 54},
-     {1, 55, kNone, 58},  {1, 60, kNone, 62}, {1, 66, kNone, 67}, {1, 72, kNone, 73},
-     {1, 78, kNone, 78},  {1, 84, kNone, 84}, {1, 90, kNone, 90}, {1, 95, kNone, 95},
-     {1, 100, kNone, 100}}};
+constexpr std::array<Rung, 35> kFewBlocks{
+    {{16, 20, kNone, 0}, {16, 50, kNone, 0}, {8, 20, kNone, 0},   {16, 50, 0, 0},
+     {8, 20, 5, 1},      {8, 20, 10, 2},     {8, 50, 20, 4},      {8, 50, 30, 7},
+     {4, 50, 30, 11},    {2, 10, 30, 15},    {2, 17, 30, 18},     {2, 25, 30, 22},
+     {2, 37, 30, 25},    {2, 50, 30, 27},    {1, 25, kNone, 33},  {1, 30, kNone, 38},
+     {1, 35, kNone, 42}, {1, 40, kNone, 46}, {1, 45, kNone, 50},  {1, 50, kNone, 54},
+     {1, 55, kNone, 58}, {1, 60, kNone, 62}, {1, 66, kNone, 67},  {1, 72, kNone, 73},
+     {1, 76, kNone, 76}, {1, 79, kNone, 79}, {1, 82, kNone, 82},  {1, 85, kNone, 85},
+     {1, 88, kNone, 88}, {1, 90, kNone, 90}, {1, 92, kNone, 92},  {1, 94, kNone, 94},
+     {1, 96, kNone, 96}, {1, 98, kNone, 98}, {1, 100, kNone, 100}}};
 
-constexpr std::array<int, 14> kMapDetail{0, 2, 5, 9, 14, 20, 28, 36, 45, 55, 65, 75, 88, 100};
+constexpr std::array<int, 20> kMapDetail{0,  2,  5,  9,  14, 20, 28, 36, 45, 55,
+                                         65, 75, 82, 86, 89, 92, 94, 96, 98, 100};
 constexpr int kMapReduction = 8;
 constexpr int kMapBase = 20;
 

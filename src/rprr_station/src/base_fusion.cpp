@@ -22,10 +22,19 @@ constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or 
 constexpr std::array<float, kOctaves> kNoiseReduced{0.50f, 0.28f, 0.13f, 0.06f, 0.02f};
 constexpr std::array<float, kOctaves> kNoiseFull{0.24f, 0.29f, 0.25f, 0.12f, 0.06f};
 
+// Coding noise is no larger than so much of what an octave holds at its place: where there is
+// nothing, nothing was lost.
+constexpr float kNoiseOfSignal = 0.3f;
+
 // The estimate errs on the side of the prediction where that is mostly good, of the base where not.
-constexpr float kTrust = 1.5f;
-constexpr float kLeastTrust = 0.75f;
+// Mostly: at all but this share of places.
+constexpr float kMostly = 0.9f;
+constexpr float kTrust = 4.0f;
+constexpr float kLeastTrust = 0.3f;
 constexpr float kMostTrust = 2.0f;
+// Steeper than Wiener's share: what a codec loses is part of the signal, so where the prediction
+// lacks the same detail the difference looks smaller than the prediction's error.
+constexpr float kSteepness = 1.3f;
 
 cv::Size half(cv::Size size) {
   return {(size.width + 1) / 2, (size.height + 1) / 2};
@@ -110,6 +119,31 @@ float sum_of(Float4 x) {
 float octave_energy(Float4 a, Float4 b, Float4 c, Float4 d, Float4 mean) {
   const Float4 all = (a * a + b * b) + (c * c + d * d);
   return (1.0f / 3.0f) * sum_of(all4(0.25f) * all - mean * mean);
+}
+
+// Pixels of the difference and of the prediction.
+struct Both {
+  Float4 difference;
+  Float4 prediction;
+};
+
+// The mean difference of a cell; what its octave holds of the difference, and of prediction or
+// base, whichever is more.
+Float4 measure(const Both& a, const Both& b, const Both& c, const Both& d, float& energy,
+               float& signal) {
+  const Float4 quarter = all4(0.25f);
+  const Float4 difference =
+      quarter * ((a.difference + b.difference) + (c.difference + d.difference));
+  const Float4 prediction =
+      quarter * ((a.prediction + b.prediction) + (c.prediction + d.prediction));
+  energy = octave_energy(a.difference, b.difference, c.difference, d.difference, difference);
+  const float predicted =
+      octave_energy(a.prediction, b.prediction, c.prediction, d.prediction, prediction);
+  const float sent = octave_energy(a.prediction + a.difference, b.prediction + b.difference,
+                                   c.prediction + c.difference, d.prediction + d.difference,
+                                   prediction + difference);
+  signal = std::max(predicted, sent);
+  return difference;
 }
 
 // out = E(q) + E(q's weight) x, E enlarging to x's size.
@@ -292,14 +326,15 @@ void BaseFusion::compare(const BaseImage& base, std::size_t base_level, std::siz
     next.difference.create(half(bgr.size()), CV_32FC4);
     cv::Mat& energy = levels_[0].energy;
     energy.create(next.difference.size(), CV_32FC1);
-    const auto difference = [&](int u, int v) {
-      return load_bgr(base.bgr.ptr<std::uint8_t>(v) + 3 * u) -
-             load_bgr(bgr.ptr<std::uint8_t>(v) + 3 * u);
+    cv::Mat& signal = levels_[0].signal;
+    signal.create(next.difference.size(), CV_32FC1);
+    const auto both = [&](int u, int v) {
+      const Float4 prediction = load_bgr(bgr.ptr<std::uint8_t>(v) + 3 * u);
+      return Both{load_bgr(base.bgr.ptr<std::uint8_t>(v) + 3 * u) - prediction, prediction};
     };
-    for_cells(bgr.size(), difference, [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
-      const Float4 mean = all4(0.25f) * ((a + b) + (c + d));
-      row4(next.difference, v)[u] = mean;
-      energy.ptr<float>(v)[u] = octave_energy(a, b, c, d, mean);
+    for_cells(bgr.size(), both, [&](int u, int v, Both a, Both b, Both c, Both d) {
+      row4(next.difference, v)[u] =
+          measure(a, b, c, d, energy.ptr<float>(v)[u], signal.ptr<float>(v)[u]);
     });
   } else {
     Level& own = levels_[base_level];
@@ -316,12 +351,15 @@ void BaseFusion::compare(const BaseImage& base, std::size_t base_level, std::siz
     Level& next = levels_[i + 1];
     next.difference.create(half(fine.difference.size()), CV_32FC4);
     fine.energy.create(next.difference.size(), CV_32FC1);
+    fine.signal.create(next.difference.size(), CV_32FC1);
     for_cells(
-        fine.difference.size(), [&](int u, int v) { return row4(fine.difference, v)[u]; },
-        [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
-          const Float4 mean = all4(0.25f) * ((a + b) + (c + d));
-          row4(next.difference, v)[u] = mean;
-          fine.energy.ptr<float>(v)[u] = octave_energy(a, b, c, d, mean);
+        fine.difference.size(),
+        [&](int u, int v) {
+          return Both{row4(fine.difference, v)[u], row4(fine.prediction, v)[u]};
+        },
+        [&](int u, int v, Both a, Both b, Both c, Both d) {
+          row4(next.difference, v)[u] =
+              measure(a, b, c, d, fine.energy.ptr<float>(v)[u], fine.signal.ptr<float>(v)[u]);
         });
   }
 }
@@ -350,26 +388,32 @@ void BaseFusion::join(std::size_t base_level, std::size_t coarsest, const BaseIm
 void BaseFusion::weigh(std::size_t level, float variance) {
   Level& own = levels_[level];
   smooth(own.energy, own.share);
-  const float middle = median_of_some(own.share);
+  smooth(own.signal, smoothed_);
+  const float mostly = most_of_some(own.share);
   const float trust =
-      std::clamp(kTrust * variance / std::max(middle, 1e-6f), kLeastTrust, kMostTrust);
+      std::clamp(kTrust * variance / std::max(mostly, 1e-6f), kLeastTrust, kMostTrust);
   for (int v = 0; v < own.share.rows; ++v) {
     auto* share = own.share.ptr<float>(v);
+    const auto* signal = smoothed_.ptr<float>(v);
     for (int u = 0; u < own.share.cols; ++u) {
-      share[u] = std::max(0.0f, 1.0f - trust * variance / std::max(share[u], 1e-3f));
+      const float noise = trust * std::min(variance, kNoiseOfSignal * signal[u]);
+      const float wiener = 1.0f - noise / std::max(share[u], 1e-3f);
+      share[u] = std::clamp(kSteepness * wiener, 0.0f, 1.0f);
     }
   }
 }
 
-float BaseFusion::median_of_some(const cv::Mat& values) {
+// What most of the values are below.
+float BaseFusion::most_of_some(const cv::Mat& values) {
   constexpr int kEvery = 3;
   sample_.clear();
   for (int v = 0; v < values.rows; v += kEvery) {
     for (int u = 0; u < values.cols; u += kEvery) sample_.push_back(values.at<float>(v, u));
   }
-  const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
-  std::nth_element(sample_.begin(), middle, sample_.end());
-  return *middle;
+  const float last = static_cast<float>(sample_.size() - 1);
+  const auto place = sample_.begin() + static_cast<std::ptrdiff_t>(kMostly * last);
+  std::nth_element(sample_.begin(), place, sample_.end());
+  return *place;
 }
 
 // How much of the prediction's detail beyond the base to keep: like the finest octave in common,

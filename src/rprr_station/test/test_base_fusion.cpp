@@ -97,7 +97,7 @@ TEST_P(AtEveryReduction, AGoodPredictionIsNotSpoilt) {
       static_cast<float>(sigma)};
   ASSERT_TRUE(base.fits(truth.size()));
   BaseFusion().fuse(base, view);
-  EXPECT_LT(rms(view.bgr, truth), 3.5);
+  EXPECT_LT(rms(view.bgr, truth), 0.5 * sigma);
 }
 
 // Another exposure of the prediction is corrected, its texture kept.

@@ -23,10 +23,11 @@ struct BasePlace {
 /// Both are split into octaves. In a band that the base has, its difference from the prediction, D,
 /// is the prediction's error plus the base's coding noise, of known variance N. The linear estimate
 /// with the least squared error adds max(0, 1 - N / var(D)) D to the prediction, var(D) measured
-/// around each place (Wiener's filter). So where they agree within the noise the prediction's clean
-/// detail stays, where they do not (light, occlusion, what moved) the base wins. In finer bands
-/// there is only the prediction; it keeps as much of its detail as its finest band in common
-/// agrees, in pattern and strength, with the joint estimate there.
+/// around each place (Wiener's filter; steeper here, and N no larger than the octave's own strength
+/// allows, so that a good base is hardly ever made worse). So where they agree within the noise the
+/// prediction's clean detail stays, where they do not (light, occlusion, what moved) the base wins.
+/// In finer bands there is only the prediction; it keeps as much of its detail as its finest band
+/// in common agrees, in pattern and strength, with the joint estimate there.
 ///
 /// Keeps its buffers between frames; one object serves one thread.
 class BaseFusion {
@@ -41,6 +42,7 @@ class BaseFusion {
     cv::Mat difference;  // CV_32FC4: base minus prediction
     cv::Mat joint;       // CV_32FC4: what to add to the prediction, then the estimate itself
     cv::Mat energy;      // CV_32FC1, of the next coarser size: mean square of the octave
+    cv::Mat signal;      // CV_32FC1, likewise: of prediction or base, whichever has more
     cv::Mat share;       // CV_32FC1, likewise: how much of the difference counts
   };
 
@@ -53,7 +55,7 @@ class BaseFusion {
                const cv::Mat& bgr);
   void join(std::size_t base_level, std::size_t coarsest, const BaseImage& base);
   void weigh(std::size_t level, float variance);
-  float median_of_some(const cv::Mat& values);
+  float most_of_some(const cv::Mat& values);
   void weigh_finer_detail(std::size_t base_level);
   void rest_beyond_base(std::size_t level);
   void finish_beyond_base(cv::Mat& bgr);
