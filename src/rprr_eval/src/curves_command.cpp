@@ -56,7 +56,8 @@ class CurvesRun {
         paper_(std::move(paper)),
         json_(arguments_.json),
         whole_({{ours_.codec.colour_codec, ours_.codec.colour_quality},
-                {paper_.codec.colour_codec, paper_.codec.colour_quality}}) {
+                {paper_.codec.colour_codec, paper_.codec.colour_quality}},
+               ours_.codec.depth_mode) {
     if (!arguments_.pairs_json.empty()) {
       pairs_json_ = std::make_unique<JsonOutput>(arguments_.pairs_json);
     }

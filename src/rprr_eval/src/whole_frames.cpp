@@ -6,14 +6,16 @@
 namespace rprr {
 namespace {
 
-FrameEncoder plain_encoder() {
-  return std::move(*FrameEncoder::create({}));  // its own defaults are never refused
+FrameEncoder plain_encoder(DhcmMode depth_mode) {
+  FrameCodecOptions options;
+  options.depth_mode = depth_mode;
+  return std::move(*FrameEncoder::create(options));  // its own defaults are never refused
 }
 
 }  // namespace
 
-WholeFrames::WholeFrames(const std::map<std::string, double>& also)
-    : also_(also), codecs_(make_whole_colours()), encoder_(plain_encoder()) {
+WholeFrames::WholeFrames(const std::map<std::string, double>& also, DhcmMode depth_mode)
+    : also_(also), codecs_(make_whole_colours()), encoder_(plain_encoder(depth_mode)) {
 }
 
 Result<const std::vector<MethodCurve>*> WholeFrames::of(const std::string& key,

@@ -30,7 +30,7 @@ class PairCurvesTest : public testing::Test {
     ASSERT_TRUE(ours && paper);
     auto measurer = CurveMeasurer::create(*ours, *paper, kBudgets);
     ASSERT_TRUE(measurer) << measurer.reason();
-    WholeFrames whole({{"webp", 40}, {"pgf", 6}});
+    WholeFrames whole({{"webp", 40}, {"pgf", 6}}, ours->codec.depth_mode);
     for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 2}}) {
       auto curves = measurer->measure(*folder, "walk", static_cast<std::size_t>(a),
                                       static_cast<std::size_t>(b), whole);

@@ -67,12 +67,12 @@ Curve psnr_new_curve(const MethodCurve& method);
 /// give the bytes of the run before.
 void set_usual_times(FrameReport& report);
 
-/// Whole frames coded by themselves: depth as every profile codes it, colour by every codec over
+/// Whole frames coded by themselves: depth as our profile codes it, colour by every codec over
 /// its whole scale. Keeps the last frame's, since it is b in several pairs.
 class WholeFrames {
  public:
   /// also: of a codec, a setting that must be among those measured.
-  explicit WholeFrames(const std::map<std::string, double>& also);
+  WholeFrames(const std::map<std::string, double>& also, DhcmMode depth_mode);
 
   /// Figures but psnr_new; a curve for each codec, at_profile for those of `also`. Valid until the
   /// next call. key names the frame. Errors: what a codec refuses.
