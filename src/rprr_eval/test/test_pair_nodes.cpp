@@ -109,16 +109,18 @@ class PairNodes : public testing::Test {
     const cv::Mat rebuilt = counts_of(*topics.depth.at(stamp));
     const cv::Mat provenance = grey_of(*topics.provenance.at(stamp));
     const cv::Mat received = provenance >= double{kReceivedColour};
-    const cv::Mat received_depth = provenance == double{kReceived};
+    const cv::Mat received_depth =
+        (provenance == double{kReceived}) | (provenance == double{kReceivedDepth});
+    const bool detail = ros::param::param("~detail", false);  // blocks' colours are sent apart
     ASSERT_EQ(rebuilt.size(), truth.size());
     EXPECT_EQ(topics.depth.at(stamp)->encoding, seen.depth.encoding);
-    EXPECT_GT(cv::countNonZero(received), 0);
+    EXPECT_EQ(cv::countNonZero(received) > 0, detail);
     EXPECT_LT(cv::countNonZero(received), static_cast<int>(received.total()));
     EXPECT_GT(cv::countNonZero(received_depth), 0);
     EXPECT_EQ(cv::countNonZero((rebuilt != truth) & received_depth), 0)
         << "received blocks are not bit-exact";
     const DepthQuality depth = depth_quality({rebuilt, 0.001}, {truth, 0.001});
-    EXPECT_GT(depth.coverage, 0.95);
+    EXPECT_GT(depth.coverage, 0.88) << "beside depth edges none is kept";
     EXPECT_LT(depth.rmse_mm, 100.0);
 
     const cv::Mat colour = bgr_of(seen.rgb);
@@ -126,7 +128,7 @@ class PairNodes : public testing::Test {
     ASSERT_EQ(view.size(), colour.size());
     const double least_psnr = ros::param::param("~least_psnr", 99.0);  // dB
     EXPECT_GT(*psnr(view, colour), least_psnr);
-    EXPECT_GT(*psnr(view, colour, received), least_psnr) << "received blocks";
+    if (detail) EXPECT_GT(*psnr(view, colour, received), least_psnr) << "received blocks";
 
     EXPECT_EQ(topics.rgb.at(stamp)->header.frame_id, kB + "_rprr_optical_frame");
     const auto camera = camera_from_info(*topics.info.at(stamp));
@@ -136,7 +138,10 @@ class PairNodes : public testing::Test {
 
     // What b shows of what it sends: its own pixels in the blocks, nothing elsewhere.
     const cv::Mat mask = grey_of(*topics.mask.at(stamp));
-    EXPECT_EQ(cv::norm(mask, received, cv::NORM_INF), 0.0) << "mask and received pixels differ";
+    if (detail) {
+      EXPECT_EQ(cv::norm(mask, received, cv::NORM_INF), 0.0) << "mask and received pixels differ";
+    }
+    EXPECT_EQ(cv::countNonZero(received_depth & ~mask), 0);
     cv::Mat sent_depth(truth.size(), CV_16UC1, cv::Scalar(0));
     truth.copyTo(sent_depth, received_depth);
     cv::Mat sent_colour(colour.size(), CV_8UC3, cv::Scalar::all(0));
@@ -161,7 +166,10 @@ class PairNodes : public testing::Test {
     EXPECT_EQ(s.independent_bytes_total, s.independent_bytes_depth + s.independent_bytes_colour);
     EXPECT_LT(s.bytes_depth, s.independent_bytes_depth);
     EXPECT_LT(s.bytes_colour, s.independent_bytes_colour);
-    EXPECT_GE(s.blocks_sent, std::max(s.blocks_predicted, s.blocks_validated));
+    if (ros::param::param("~detail", false)) {
+      EXPECT_GE(s.blocks_sent, std::max(s.blocks_predicted, s.blocks_validated));
+    }
+    EXPECT_GT(s.blocks_sent, 0u);
     EXPECT_LE(s.blocks_sent, s.blocks_predicted + s.blocks_validated);
     EXPECT_LT(s.blocks_sent, s.blocks_total);
     EXPECT_GT(s.share_predicted, 0.2f);

@@ -52,6 +52,7 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
       view.provenance(rect).setTo(depth_mask[block] ? kReceived : kReceivedColour);
     }
     if (depth_mask[block]) {
+      if (received_bgr.empty()) view.provenance(rect).setTo(kReceivedDepth);
       received_depth.counts(rect).copyTo(view.depth.counts(rect));
       predicted_depth_(rect).setTo(0);
     }
@@ -60,7 +61,8 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
 
   const double pixels = static_cast<double>(size.area());
   const int received = cv::countNonZero(view.provenance >= kReceivedColour);
-  const int base = cv::countNonZero(view.provenance == kBase);
+  const int base =
+      cv::countNonZero((predicted.provenance == kBase) & (view.provenance < kReceivedColour));
   const int known = cv::countNonZero(view.provenance);
   view.share_received = received / pixels;
   view.share_predicted = (known - received - base) / pixels;

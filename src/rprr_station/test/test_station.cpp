@@ -176,6 +176,7 @@ TEST_F(StationTest, WithoutDetailAllColourIsPredictionAndBase) {
   EXPECT_LE(cv::norm(frame.bgr, plain(90), cv::NORM_INF), 1);
   EXPECT_EQ(cv::countNonZero(frame.provenance >= kReceivedColour), 0);
   const cv::Rect sent = some_blocks().grid().rect(5);
+  EXPECT_EQ(cv::countNonZero(frame.provenance(sent) != kReceivedDepth), 0);
   EXPECT_EQ(cv::norm(frame.depth.counts(sent), noisy_plane(2).counts(sent), cv::NORM_INF), 0);
 }
 

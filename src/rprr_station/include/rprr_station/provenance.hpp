@@ -13,6 +13,7 @@ enum Provenance : std::uint8_t {
   kBase = 96,             // colour of the robot's own low-quality image; no depth
   kMended = 128,          // predicted, depth from the neighbours (crack or ghost)
   kPredicted = 192,       // warped from the reference frame
+  kReceivedDepth = 208,   // depth sent by the robot itself; colour estimated
   kReceivedColour = 224,  // colour sent by the robot itself; depth, if any, predicted
   kReceived = 255,        // sent by the robot itself, colour and depth
 };
