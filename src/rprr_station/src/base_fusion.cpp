@@ -22,6 +22,9 @@ constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or 
 constexpr std::array<float, kOctaves> kNoiseReduced{0.50f, 0.28f, 0.13f, 0.06f, 0.02f};
 constexpr std::array<float, kOctaves> kNoiseFull{0.24f, 0.29f, 0.25f, 0.12f, 0.06f};
 
+// Grey levels of noise below which no prediction improves a base of full size.
+constexpr float kFine = 2.5f;
+
 // Coding noise is no larger than so much of what an octave holds at its place: where there is
 // nothing, nothing was lost.
 constexpr float kNoiseOfSignal = 0.3f;
@@ -236,6 +239,11 @@ void find_places(int count, int reduction, int base_count, std::vector<BasePlace
 }  // namespace
 
 void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
+  if (base.reduction == 1 && base.noise < kFine) {
+    base.bgr.copyTo(view.bgr);
+    view.provenance.setTo(kBase);
+    return;
+  }
   const std::size_t base_level = level_of(base.reduction);
   const std::size_t coarsest = coarsest_level(view.bgr.size(), base_level);
   if (levels_.size() < coarsest + 1) levels_.resize(coarsest + 1);

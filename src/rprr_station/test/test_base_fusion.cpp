@@ -154,6 +154,15 @@ TEST(BaseFusion, TheJointEstimateBeatsBoth) {
   }
 }
 
+TEST(BaseFusion, AFineBaseOfFullSizeIsTheView) {
+  const cv::Mat truth = scene(100, 80);
+  const cv::Mat sent = with_noise(truth, 2.0, 3);
+  PredictedView view = predicted(with_noise(truth, 1.0, 4));
+  BaseFusion().fuse({sent, 1, 2.0f}, view);
+  EXPECT_EQ(cv::norm(view.bgr, sent, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::countNonZero(view.provenance != kBase), 0);
+}
+
 TEST(BaseFusion, SmallAndOddImages) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 2), cv::Size(17, 9), cv::Size(640, 8)}) {
     for (const int reduction : {1, 2, 16}) {

@@ -33,7 +33,8 @@ struct BasePlace {
 class BaseFusion {
  public:
   /// Replaces view.bgr by the joint estimate; pixels that were not predicted take the base alone,
-  /// with provenance kBase. base must fit the view's size.
+  /// with provenance kBase; so do all where the base is of full size and hardly has an error. base
+  /// must fit the view's size.
   void fuse(const BaseImage& base, PredictedView& view);
 
  private:

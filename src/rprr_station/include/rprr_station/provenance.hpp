@@ -10,7 +10,7 @@ namespace rprr {
 enum Provenance : std::uint8_t {
   kNothing = 0,           // nobody saw it: black, no depth
   kFilled = 64,           // colour spread smoothly from the neighbourhood; no depth
-  kBase = 96,             // colour of the robot's own low-quality image; no depth
+  kBase = 96,             // colour of the robot's own whole image alone; depth, if any, predicted
   kMended = 128,          // predicted, depth from the neighbours (crack or ghost)
   kPredicted = 192,       // warped from the reference frame
   kReceivedDepth = 208,   // depth sent by the robot itself; colour estimated
