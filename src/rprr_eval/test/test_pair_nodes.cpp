@@ -128,7 +128,9 @@ class PairNodes : public testing::Test {
     ASSERT_EQ(view.size(), colour.size());
     const double least_psnr = ros::param::param("~least_psnr", 99.0);  // dB
     EXPECT_GT(*psnr(view, colour), least_psnr);
-    if (detail) EXPECT_GT(*psnr(view, colour, received), least_psnr) << "received blocks";
+    if (detail) {
+      EXPECT_GT(*psnr(view, colour, received), least_psnr) << "received blocks";
+    }
 
     EXPECT_EQ(topics.rgb.at(stamp)->header.frame_id, kB + "_rprr_optical_frame");
     const auto camera = camera_from_info(*topics.info.at(stamp));
