@@ -12,7 +12,6 @@
 namespace rprr {
 namespace {
 
-constexpr int kOffsetCell = 16;      // pixels
 constexpr std::size_t kOctaves = 5;  // of the base that are weighed; what is coarser counts fully
 constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or the next below
 
@@ -39,10 +38,6 @@ constexpr float kMostTrust = 2.0f;
 // lacks the same detail the difference looks smaller than the prediction's error.
 constexpr float kSteepness = 1.3f;
 
-cv::Size half(cv::Size size) {
-  return {(size.width + 1) / 2, (size.height + 1) / 2};
-}
-
 std::size_t level_of(int reduction) {
   std::size_t level = 0;
   while ((1 << level) < reduction) ++level;
@@ -56,21 +51,6 @@ std::size_t coarsest_level(cv::Size size, std::size_t base_level) {
     size = half(size);
   }
   return level;
-}
-
-// Calls visit(u, v, four pixels' values) for the 2x2 cells of an image; at(u, v) gives a pixel.
-template <typename At, typename Visit>
-void for_cells(cv::Size fine, const At& at, const Visit& visit) {
-  const cv::Size coarse = half(fine);
-  for (int v = 0; v < coarse.height; ++v) {
-    const int upper = 2 * v;
-    const int lower = std::min(2 * v + 1, fine.height - 1);
-    for (int u = 0; u < coarse.width; ++u) {
-      const int left = 2 * u;
-      const int right = std::min(2 * u + 1, fine.width - 1);
-      visit(u, v, at(left, upper), at(right, upper), at(left, lower), at(right, lower));
-    }
-  }
 }
 
 void reduce(const cv::Mat& fine, cv::Mat& coarse) {
@@ -175,67 +155,6 @@ void weighted_rest(const cv::Mat& whole, const cv::Mat& part, const cv::Mat& wei
   }
 }
 
-// Where a pixel lies in an image of `scale` times the size, in its pixels.
-float place_of(int pixel, float scale, int count) {
-  return std::clamp((static_cast<float>(pixel) + 0.5f) * scale - 0.5f, 0.0f,
-                    static_cast<float>(count - 1));
-}
-
-Float4 sample4(const cv::Mat& image, float x, float y) {
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const int right = std::min(left + 1, image.cols - 1);
-  const Float4* upper = row4(image, top);
-  const Float4* lower = row4(image, std::min(top + 1, image.rows - 1));
-  const Float4 across = all4(x - static_cast<float>(left));
-  const Float4 above = upper[left] + across * (upper[right] - upper[left]);
-  const Float4 below = lower[left] + across * (lower[right] - lower[left]);
-  return above + all4(y - static_cast<float>(top)) * (below - above);
-}
-
-// Of sums and how many there are (the fourth number) makes means everywhere: where there are none
-// or few they come from around (push-pull, as in smooth_fill.hpp).
-void spread(std::vector<cv::Mat>& levels) {
-  std::size_t count = 1;
-  for (cv::Size size = levels[0].size(); size.area() > 1; size = half(size)) ++count;
-  levels.resize(count);
-  constexpr float kEnough = 4.0f;
-  for (std::size_t k = 0; k + 1 < count; ++k) {
-    levels[k + 1].create(half(levels[k].size()), CV_32FC4);
-    for_cells(
-        levels[k].size(), [&](int u, int v) { return row4(levels[k], v)[u]; },
-        [&](int u, int v, Float4 a, Float4 b, Float4 c, Float4 d) {
-          row4(levels[k + 1], v)[u] = (a + b) + (c + d);
-        });
-  }
-  for (std::size_t k = count; k-- > 0;) {
-    for (int v = 0; v < levels[k].rows; ++v) {
-      Float4* at = row4(levels[k], v);
-      for (int u = 0; u < levels[k].cols; ++u) {
-        const float here = at[u][3];
-        const float missing = std::max(0.0f, kEnough - here);
-        Float4 around = all4(0.0f);
-        if (k + 1 < count) {
-          around = sample4(levels[k + 1], place_of(u, 0.5f, levels[k + 1].cols),
-                           place_of(v, 0.5f, levels[k + 1].rows));
-        }
-        at[u] = (at[u] + all4(missing) * around) * all4(1.0f / (here + missing));
-      }
-    }
-  }
-}
-
-// Places of the frame's columns or rows in the base: between which two pixels, and how far.
-void find_places(int count, int reduction, int base_count, std::vector<BasePlace>& places) {
-  places.resize(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const float at = place_of(i, 1.0f / static_cast<float>(reduction), base_count);
-    const int first = static_cast<int>(at);
-    places[static_cast<std::size_t>(i)] = {3 * first, 3 * std::min(first + 1, base_count - 1),
-                                           at - static_cast<float>(first)};
-  }
-}
-
 }  // namespace
 
 void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
@@ -249,7 +168,7 @@ void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
   if (levels_.size() < coarsest + 1) levels_.resize(coarsest + 1);
   mixed_.create(1, view.bgr.cols / 2 + 4, CV_32FC4);
 
-  take_base_where_unknown(base, view);
+  base_fill_.fill(base, view);
   reduce_bgr(view.bgr, levels_[1].prediction);
   for (std::size_t level = 1; level < coarsest; ++level) {
     reduce(levels_[level].prediction, levels_[level + 1].prediction);
@@ -268,62 +187,6 @@ void BaseFusion::fuse(const BaseImage& base, PredictedView& view) {
   }
   rest_beyond_base(1);
   finish_beyond_base(view.bgr);
-}
-
-// Unknown pixels take the base in the light of the prediction around them: a prediction without
-// edges where it begins and ends. The light comes back with the difference to the base.
-void BaseFusion::take_base_where_unknown(const BaseImage& base, PredictedView& view) {
-  find_places(view.bgr.cols, base.reduction, base.bgr.cols, columns_);
-  find_places(view.bgr.rows, base.reduction, base.bgr.rows, rows_);
-  measure_offsets(base, view);
-  spread(offsets_);
-  const cv::Mat& offsets = offsets_[0];
-  for (int v = 0; v < view.bgr.rows; ++v) {
-    auto* provenance = view.provenance.ptr<std::uint8_t>(v);
-    if (std::memchr(provenance, kNothing, static_cast<std::size_t>(view.bgr.cols)) == nullptr) {
-      continue;
-    }
-    auto* colours = view.bgr.ptr<std::uint8_t>(v);
-    const float y = place_of(v, 1.0f / kOffsetCell, offsets.rows);
-    for (int u = 0; u < view.bgr.cols; ++u) {
-      if (provenance[u] != kNothing) continue;
-      provenance[u] = kBase;
-      const float x = place_of(u, 1.0f / kOffsetCell, offsets.cols);
-      store_bgr(sample_base(base, u, v) - sample4(offsets, x, y), colours + 3 * u);
-    }
-  }
-}
-
-// Of some pixels: means of base minus prediction in cells, and how many there were.
-void BaseFusion::measure_offsets(const BaseImage& base, const PredictedView& view) {
-  const auto cells = [](int pixels) { return (pixels + kOffsetCell - 1) / kOffsetCell; };
-  cv::Mat& offsets = offsets_[0];
-  offsets.create(cells(view.bgr.rows), cells(view.bgr.cols), CV_32FC4);
-  offsets.setTo(0);
-  constexpr int kEvery = 4;
-  for (int v = kEvery / 2; v < view.bgr.rows; v += kEvery) {
-    const auto* provenance = view.provenance.ptr<std::uint8_t>(v);
-    const auto* colours = view.bgr.ptr<std::uint8_t>(v);
-    Float4* const to = row4(offsets, v / kOffsetCell);
-    for (int u = kEvery / 2; u < view.bgr.cols; u += kEvery) {
-      if (provenance[u] == kNothing) continue;
-      Float4 offset = sample_base(base, u, v) - load_bgr(colours + 3 * u);
-      offset[3] = 1.0f;
-      to[u / kOffsetCell] += offset;
-    }
-  }
-}
-
-Float4 BaseFusion::sample_base(const BaseImage& base, int u, int v) const {
-  const BasePlace& row = rows_[static_cast<std::size_t>(v)];
-  const BasePlace& at = columns_[static_cast<std::size_t>(u)];
-  const auto across = [&](int line) {
-    const auto* pixels = base.bgr.ptr<std::uint8_t>(line / 3);
-    const Float4 near = load_bgr(pixels + at.first);
-    return near + all4(at.share) * (load_bgr(pixels + at.second) - near);
-  };
-  const Float4 above = across(row.first);
-  return above + all4(row.share) * (across(row.second) - above);
 }
 
 // Differences at the base's level and coarser ones, and how much each octave of them holds.

@@ -37,6 +37,25 @@ inline void store_bgr(Float4 x, std::uint8_t* to) {
   to[2] = static_cast<std::uint8_t>(rounded[2]);
 }
 
+inline cv::Size half(cv::Size size) {
+  return {(size.width + 1) / 2, (size.height + 1) / 2};
+}
+
+/// Calls visit(u, v, four pixels' values) for the 2x2 cells of an image; at(u, v) gives a pixel.
+template <typename At, typename Visit>
+void for_cells(cv::Size fine, const At& at, const Visit& visit) {
+  const cv::Size coarse = half(fine);
+  for (int v = 0; v < coarse.height; ++v) {
+    const int upper = 2 * v;
+    const int lower = std::min(2 * v + 1, fine.height - 1);
+    for (int u = 0; u < coarse.width; ++u) {
+      const int left = 2 * u;
+      const int right = std::min(2 * u + 1, fine.width - 1);
+      visit(u, v, at(left, upper), at(right, upper), at(left, lower), at(right, lower));
+    }
+  }
+}
+
 /// Calls visit(column, value) for a row of the image of twice the size of `coarse`, whose pixels
 /// lie a quarter and three quarters of the way between its own. `coarse` has (rows + 1) / 2 rows
 /// and (columns + 1) / 2 columns. mixed: room for coarse.cols + 2.

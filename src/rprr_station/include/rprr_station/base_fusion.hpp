@@ -4,18 +4,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "rprr_station/base_fill.hpp"
 #include "rprr_station/base_image.hpp"
 #include "rprr_station/view_synthesis.hpp"
 
 namespace rprr {
-
-/// A column or row of a frame in its base: between two pixels (times three, for their colours), and
-/// how far towards the second.
-struct BasePlace {
-  int first;
-  int second;
-  float share;
-};
 
 /// Joins a prediction with the base that the dependent sent: per frequency band and place, each
 /// counts by what is known of its error.
@@ -47,11 +40,6 @@ class BaseFusion {
     cv::Mat share;       // CV_32FC1, likewise: how much of the difference counts
   };
 
-  using Float4 = float __attribute__((vector_size(16)));
-
-  void take_base_where_unknown(const BaseImage& base, PredictedView& view);
-  void measure_offsets(const BaseImage& base, const PredictedView& view);
-  Float4 sample_base(const BaseImage& base, int u, int v) const;
   void compare(const BaseImage& base, std::size_t base_level, std::size_t coarsest,
                const cv::Mat& bgr);
   void join(std::size_t base_level, std::size_t coarsest, const BaseImage& base);
@@ -62,13 +50,12 @@ class BaseFusion {
   void finish_beyond_base(cv::Mat& bgr);
   void finish_at_base(const BaseImage& base, PredictedView& view);
 
+  BaseFill base_fill_;
   std::vector<Level> levels_;  // level k has cells of 2^k pixels; of 0 only energy and share
   cv::Mat rest_;               // CV_32FC4: what is to be added, and a weight
   cv::Mat mixed_;              // CV_32FC4, a row
   cv::Mat agreement_[3];       // CV_32FC1: variances of prediction and estimate, covariance
   cv::Mat smoothed_;
-  std::vector<BasePlace> columns_, rows_;
-  std::vector<cv::Mat> offsets_ = std::vector<cv::Mat>(1);  // CV_32FC4, each of half the size
   std::vector<float> sample_;
 };
 
