@@ -93,11 +93,21 @@ LayerSettings FrameEncoder::settings() const {
 
 Result<bool> FrameEncoder::encode(const DepthFrame& depth, const cv::Mat& bgr,
                                   EncodedFrame& frame) {
-  if (!frame.sparse || options_.objective == Objective::kFixed) {
-    return encode(depth, bgr, frame, settings());
-  }
+  return encode_within(depth, bgr, frame, 0);
+}
+
+Result<bool> FrameEncoder::encode_within(const DepthFrame& depth, const cv::Mat& bgr,
+                                         EncodedFrame& frame, std::size_t limit) {
   Result<bool> done = prepare(depth, bgr, frame);
-  if (done) done = plan(frame);
+  if (!done) return done;
+  const EncodedFrame prepared = limit > 0 ? frame : EncodedFrame();
+  done = encode_as_asked(frame);
+  if (done && limit > 0 && serialise(frame).size() > limit) {
+    const float ms_encode = frame.report.ms_encode;
+    frame = prepared;
+    frame.report.ms_encode = ms_encode;
+    done = coarsen(frame, limit);
+  }
   if (done && options_.measure_independent) {
     done = measure_independent(depth, options_.colour_quality, frame);
   }

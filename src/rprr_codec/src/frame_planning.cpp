@@ -15,45 +15,95 @@ constexpr int kChannels = 3;
 
 }  // namespace
 
-// Climbs or descends from the last frame's rung to the finest that is within the budget, or the
-// coarsest that reaches the target.
+Result<bool> FrameEncoder::encode_as_asked(EncodedFrame& frame) {
+  if (frame.sparse && options_.objective != Objective::kFixed) return plan(frame);
+  return encode_colour(frame, settings());
+}
+
+// The finest that is within the budget, or the coarsest that reaches the target.
 Result<bool> FrameEncoder::plan(EncodedFrame& frame) {
-  const bool few = frame.mask.count() < kFewBlocksShare * frame.mask.grid().count();
-  const LayerLadder& ladder = ladders_[few ? 1 : 0];
-  const bool budget = options_.byte_budget > 0;
-  if (!budget && !(options_.target_psnr > 0.0))
-    return try_settings(ladder.at(ladder.usual()), frame);
+  const LayerLadder& ladder = ladder_for(frame);
+  if (options_.byte_budget > 0) {
+    const auto short_enough = [this](const EncodedFrame& trial) {
+      return serialise(trial).size() <= options_.byte_budget;
+    };
+    return search(ladder.all(), true, short_enough, last_rung_, frame);
+  }
+  if (options_.target_psnr > 0.0) {
+    const auto good_enough = [this](const EncodedFrame& trial) {
+      const Result<double> psnr = sent_psnr(trial);  // what cannot be told counts as no
+      return psnr && *psnr >= options_.target_psnr;
+    };
+    return search(ladder.all(), false, good_enough, last_rung_, frame);
+  }
+  return try_settings(ladder.at(ladder.usual()), frame);
+}
+
+// For what is longer as the options ask for it.
+Result<bool> FrameEncoder::coarsen(EncodedFrame& frame, std::size_t limit) {
+  const std::vector<LayerSettings> rungs = coarser_settings(frame);
+  if (rungs.empty()) return encode_as_asked(frame);
+  const auto short_enough = [limit](const EncodedFrame& trial) {
+    return serialise(trial).size() <= limit;
+  };
+  return search(rungs, true, short_enough, last_coarse_rung_, frame);
+}
+
+std::vector<LayerSettings> FrameEncoder::coarser_settings(const EncodedFrame& frame) const {
+  if (frame.sparse && options_.objective != Objective::kFixed) {
+    const LayerLadder& ladder = ladder_for(frame);
+    const bool usual = options_.byte_budget == 0 && !(options_.target_psnr > 0.0);
+    return {ladder.all().begin(), ladder.all().begin() + (usual ? ladder.usual() : ladder.rungs())};
+  }
+  std::vector<LayerSettings> rungs;
+  for (const int quality : coarser_qualities(layers_.info(), options_.colour_quality)) {
+    rungs.push_back(settings());
+    rungs.back().detail_quality = quality;
+  }
+  return rungs;
+}
+
+// The finest rung that is good (bytes rise with the rungs), or the coarsest that is (quality does).
+// From where the last search ended it goes up or down by growing strides, then by halving.
+Result<bool> FrameEncoder::search(const std::vector<LayerSettings>& rungs, bool finest,
+                                  const Judge& good, int& last, EncodedFrame& frame) {
+  const int count = static_cast<int>(rungs.size());
   // Rungs up to `low` are on the one side (short enough; not good enough), from `high` on the
   // other.
   int low = -1;
-  int high = ladder.rungs();
-  int rung = std::min(last_rung_, high - 1);
+  int high = count;
+  int rung = std::min(last, count - 1);
   int stride = 1;
   std::optional<EncodedFrame> best;
-  int best_rung = budget ? 0 : high - 1;
+  int best_rung = finest ? 0 : count - 1;
   while (high - low > 1) {
     EncodedFrame trial = frame;
-    Result<bool> done = try_settings(ladder.at(rung), trial);
+    Result<bool> done = try_settings(rungs[static_cast<std::size_t>(rung)], trial);
     if (!done) return done;
     frame.report.ms_encode = trial.report.ms_encode;
-    const bool enough = good_enough(trial);
-    (enough == budget ? low : high) = rung;
-    if (enough || (!best && rung == best_rung)) {
+    const bool is_good = good(trial);
+    (is_good == finest ? low : high) = rung;
+    if (is_good || (!best && rung == best_rung)) {
       best = std::move(trial);
       best_rung = rung;
     }
-    const bool bracketed = low >= 0 && high < ladder.rungs();
+    const bool bracketed = low >= 0 && high < count;
     rung = bracketed ? (low + high) / 2
-                     : std::clamp(enough == budget ? rung + stride : rung - stride, low + 1,
+                     : std::clamp(is_good == finest ? rung + stride : rung - stride, low + 1,
                                   std::max(high - 1, low + 1));
     stride *= 2;
   }
-  last_rung_ = best_rung;
-  if (!best) return try_settings(ladder.at(best_rung), frame);
+  last = best_rung;
+  if (!best) return try_settings(rungs[static_cast<std::size_t>(best_rung)], frame);
   const float ms_encode = frame.report.ms_encode;
   frame = std::move(*best);
   frame.report.ms_encode = ms_encode;
   return true;
+}
+
+const LayerLadder& FrameEncoder::ladder_for(const EncodedFrame& frame) const {
+  const bool few = frame.mask.count() < kFewBlocksShare * frame.mask.grid().count();
+  return ladders_[few ? 1 : 0];
 }
 
 Result<bool> FrameEncoder::try_settings(const LayerSettings& settings, EncodedFrame& frame) {
@@ -61,13 +111,6 @@ Result<bool> FrameEncoder::try_settings(const LayerSettings& settings, EncodedFr
   const bool some_depth = !frame.depth_mask.empty() && frame.depth_mask.count() > 0;
   if (done && !settings.detail && some_depth) frame.mask = frame.depth_mask;
   return done;
-}
-
-// Within the budget, or at the target. What cannot be told counts as no.
-bool FrameEncoder::good_enough(const EncodedFrame& frame) {
-  if (options_.byte_budget > 0) return serialise(frame).size() <= options_.byte_budget;
-  const Result<double> psnr = sent_psnr(frame);
-  return psnr && *psnr >= options_.target_psnr;
 }
 
 // Of detail where there is some and the enlarged base elsewhere, against the frame's colours.

@@ -99,6 +99,21 @@ double as_webp(const ColourCodecInfo& codec, int quality) {
   return table == nullptr ? quality : interpolate(*table, &Equal::other, &Equal::webp, quality);
 }
 
+std::vector<int> coarser_qualities(const ColourCodecInfo& codec, int quality) {
+  const int sign = codec.best > codec.coarsest ? 1 : -1;
+  std::vector<int> qualities;
+  const auto add = [&](int next) {
+    if (sign * (quality - next) <= 0) return;
+    if (qualities.empty() || sign * (next - qualities.back()) > 0) qualities.push_back(next);
+  };
+  // Some codecs go below the least of WebP.
+  constexpr int kStep = 3;
+  const int least = like_webp(codec, kMapDetail[0]);
+  for (int next = codec.coarsest; sign * (least - next) > 0; next += sign * kStep) add(next);
+  for (const int webp : kMapDetail) add(like_webp(codec, webp));
+  return qualities;
+}
+
 LayerLadder::LayerLadder(Objective objective, bool few_blocks, const ColourCodecInfo& detail,
                          const ColourCodecInfo& base, int usual_quality) {
   const double wanted = as_webp(detail, usual_quality);

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "codec_options.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 namespace rprr {
+namespace {
+
+std::string wrong_bandwidth(double bandwidth) {
+  if (bandwidth == 0.0 || bandwidth >= kLeastBandwidth) return {};
+  return "~bandwidth must be 0 (no limit) or at least " +
+         std::to_string(static_cast<int>(kLeastBandwidth)) + " bytes a second";
+}
+
+}  // namespace
 
 Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
   FrameCodecOptions options;
@@ -33,6 +43,34 @@ Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
     return Error{"~unsent_fill is '" + fill + "', must be black or smooth"};
   }
   options.fill = fill == "black" ? UnsentFill::kBlack : UnsentFill::kSmooth;
+  return options;
+}
+
+Result<SendQueueOptions> read_send_options(const ros::NodeHandle& nh, const std::string& robot) {
+  SendQueueOptions options;
+  options.robot = robot;
+  options.bandwidth = nh.param("bandwidth", options.bandwidth);
+  options.frame_rate = nh.param("frame_rate", options.frame_rate);
+  options.waiting = static_cast<std::size_t>(std::max(nh.param("queue_size", 5), 1));
+  options.in_flight = static_cast<std::size_t>(std::max(nh.param("in_flight", 3), 0));
+  options.receipt_timeout =
+      from_seconds(nh.param("receipt_timeout", to_seconds(options.receipt_timeout)));
+  const std::string wrong = wrong_bandwidth(options.bandwidth);
+  if (!wrong.empty()) return Error{wrong};
+  return options;
+}
+
+Result<FrameCodecOptions> with_config(FrameCodecOptions options,
+                                      const rprr_codec::EncoderConfig& config) {
+  const std::optional<Objective> objective = objective_of(config.objective);
+  if (!objective) return Error{"~objective must be fixed, map or view"};
+  const std::string wrong = wrong_bandwidth(config.bandwidth);
+  if (!wrong.empty()) return Error{wrong};
+  options.objective = *objective;
+  options.colour_quality = config.colour_quality;
+  options.view_quality = config.view_quality;
+  options.byte_budget = static_cast<std::size_t>(std::max(config.byte_budget, 0));
+  options.target_psnr = config.target_psnr;
   return options;
 }
 

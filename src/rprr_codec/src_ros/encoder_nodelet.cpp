@@ -1,29 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
+#include <rprr_msgs/BlockMask.h>
+#include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/EncodedFrame.h>
 #include <rprr_msgs/OutgoingFrame.h>
+#include <rprr_msgs/PoseUpdate.h>
+#include <rprr_msgs/RadioState.h>
+#include <rprr_msgs/Receipt.h>
+#include <rprr_msgs/RelativePose.h>
+#include <rprr_msgs/SamplePoints.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <memory>
+#include <mutex>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
+#include <vector>
 
 #include "codec_options.hpp"
 #include "outgoing_conversion.hpp"
 #include "rprr_codec/frame_codec.hpp"
+#include "rprr_codec/send_queue.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 
 namespace rprr {
+namespace {
 
-/// /<robot>/rprr/outgoing to /<robot>/rprr/encoded. Parameters: config/encoder.yaml.
+using rprr_codec::EncoderConfig;
+
+constexpr std::size_t kLongestControl = 65536;  // bytes; no message of an exchange comes near it
+constexpr Duration kTellAgain = from_seconds(1.0);
+
+Stamp steady_now() {
+  return static_cast<Stamp>(ros::SteadyTime::now().toNSec());
+}
+
+std::vector<Stamp> to_stamps(const std::vector<ros::Time>& times) {
+  std::vector<Stamp> stamps;
+  for (const ros::Time& time : times) stamps.push_back(to_stamp(time));
+  return stamps;
+}
+
+}  // namespace
+
+/// A robot's way to the radio: /<robot>/rprr/outgoing to /<robot>/rprr/encoded, within the budget
+/// and as the station's receipts allow (SendQueue). Parameters: config/encoder.yaml.
 class EncoderNodelet : public nodelet::Nodelet {
  public:
   ~EncoderNodelet() override {
-    subscriber_.shutdown();
-    worker_.reset();  // its job uses the members below
+    timer_.stop();
+    for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+    worker_.reset();  // its jobs use the members below
   }
 
  private:
@@ -32,64 +64,187 @@ class EncoderNodelet : public nodelet::Nodelet {
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
     robot_ = private_nh.param<std::string>("robot", "eyebug_a");
     depth_unit_ = private_nh.param("depth_unit", 0.0002);
-    const int queue_size = std::max(1, private_nh.param("queue_size", 5));
     health_ = std::make_unique<Health>(nh, private_nh, "encoder", robot_);
-    if (!make_encoder(private_nh)) return;
-
-    publisher_ = nh.advertise<rprr_msgs::EncodedFrame>("/" + robot_ + "/rprr/encoded",
-                                                       static_cast<std::uint32_t>(queue_size));
-    worker_ = std::make_unique<Worker>(static_cast<std::size_t>(queue_size));
-    subscriber_ =
-        nh.subscribe("/" + robot_ + "/rprr/outgoing", static_cast<std::uint32_t>(queue_size),
-                     &EncoderNodelet::on_outgoing, this);
-  }
-
-  bool make_encoder(const ros::NodeHandle& private_nh) {
-    const Result<FrameCodecOptions> options = read_codec_options(private_nh);
-    Result<FrameEncoder> encoder =
-        options ? FrameEncoder::create(*options) : Result<FrameEncoder>(Error{options.reason()});
-    std::string problem = encoder ? std::string() : encoder.reason();
-    if (!(depth_unit_ > 0.0)) problem = "~depth_unit must be above 0 (metres per count)";
+    const std::string problem = make_encoder(private_nh);
     if (!problem.empty()) {
       NODELET_FATAL_STREAM(problem << "; nothing is encoded until this is mended and restarted");
       health_->error("parameters", problem);
-      return false;
+      return;
     }
+    const std::string prefix = "/" + robot_ + "/rprr/";
+    publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16);
+    state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
+    worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
+    timer_ = nh.createWallTimer(ros::WallDuration(0.01), &EncoderNodelet::on_timer, this);
+    server_ = std::make_unique<dynamic_reconfigure::Server<EncoderConfig>>(private_nh);
+    server_->setCallback([this](EncoderConfig& config, std::uint32_t) { on_config(config); });
+    subscribe(nh, prefix);
+  }
+
+  // Empty, or what is wrong.
+  std::string make_encoder(const ros::NodeHandle& private_nh) {
+    if (!(depth_unit_ > 0.0)) return "~depth_unit must be above 0 (metres per count)";
+    const Result<FrameCodecOptions> options = read_codec_options(private_nh);
+    if (!options) return options.reason();
+    const Result<SendQueueOptions> sending = read_send_options(private_nh, robot_);
+    if (!sending) return sending.reason();
+    Result<FrameEncoder> encoder = FrameEncoder::create(*options);
+    if (!encoder) return encoder.reason();
+    options_ = *options;
     encoder_ = std::make_unique<FrameEncoder>(std::move(*encoder));
-    return true;
+    queue_ = std::make_unique<SendQueue>(*sending);
+    return {};
+  }
+
+  void subscribe(ros::NodeHandle& nh, const std::string& prefix) {
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    subscribers_.push_back(
+        nh.subscribe(prefix + "outgoing", 8, &EncoderNodelet::on_outgoing, this));
+    subscribers_.push_back(
+        nh.subscribe("/station/receipts", 20, &EncoderNodelet::on_receipt, this, hints));
+    // What this robot's other nodelets put on the radio.
+    count<rprr_msgs::BlockPreview>(nh, prefix + "preview");
+    count<rprr_msgs::SamplePoints>(nh, prefix + "samples");
+    count<rprr_msgs::PoseUpdate>(nh, prefix + "update");
+    count<rprr_msgs::RelativePose>(nh, prefix + "relative_pose");
+    count<rprr_msgs::BlockMask>(nh, prefix + "prediction");
+  }
+
+  template <typename Message>
+  void count(ros::NodeHandle& nh, const std::string& topic) {
+    subscribers_.push_back(
+        nh.subscribe<Message>(topic, 20, [this](const boost::shared_ptr<const Message>& message) {
+          const std::size_t bytes = ros::serialization::serializationLength(*message) + 4;
+          const std::lock_guard<std::mutex> lock(mutex_);
+          queue_->spent(std::min(bytes, kLongestControl), steady_now());
+        }));
+  }
+
+  void on_config(EncoderConfig& config) {
+    const Result<FrameCodecOptions> options = with_config(options_, config);
+    Result<FrameEncoder> encoder =
+        options ? FrameEncoder::create(*options) : Result<FrameEncoder>(Error{options.reason()});
+    if (!encoder) {
+      health_->warn("reconfiguration", "refused: " + encoder.reason());
+      if (config_) config = *config_;
+      return;
+    }
+    config_ = config;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    next_encoder_ = std::make_unique<FrameEncoder>(std::move(*encoder));
+    queue_->set_rate(config.bandwidth, config.frame_rate);
+    const double tick = config.bandwidth > 0.0 ? 0.01 : 0.05;
+    timer_.setPeriod(ros::WallDuration(tick));
   }
 
   void on_outgoing(const rprr_msgs::OutgoingFrameConstPtr& message) {
-    if (!worker_->post([this, message] { encode(*message); })) {
-      health_->warn("dropped",
-                    "encoding is slower than " + subscriber_.getTopic() +
-                        ": the oldest waiting frame was dropped; lower the frame rate, or raise "
-                        "~queue_size if it comes in bursts");
+    QueuedFrame frame;
+    frame.stamp = to_stamp(message->header.stamp);
+    frame.frame_id = clean_frame(message->header.frame_id);
+    frame.exchange = message->exchange;
+    frame.sparse = message->sparse != 0;
+    frame.reference = message->reference;
+    frame.reference_stamp = to_stamp(message->reference_stamp);
+    frame.content = std::shared_ptr<const void>(message.get(), [message](const void*) {});
+    std::size_t dropped = 0;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      dropped = queue_->offer(std::move(frame), steady_now()).size();
+    }
+    if (dropped > 0) {
+      health_->count("frames that gave way to newer ones", dropped);
+      if (!config_ || config_->bandwidth == 0.0) {
+        health_->warn("dropped", "encoding is slower than /" + robot_ +
+                                     "/rprr/outgoing, or the station's receipts are slow: the "
+                                     "oldest waiting frame was dropped; lower the frame rate, or "
+                                     "raise ~queue_size if it comes in bursts");
+      }
+    }
+    pump();
+  }
+
+  void on_receipt(const rprr_msgs::ReceiptConstPtr& message) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      queue_->receipt(message->robot, to_stamps(message->held), to_stamps(message->repeat),
+                      to_stamp(message->last), steady_now());
+    }
+    pump();
+  }
+
+  void on_timer(const ros::WallTimerEvent&) { pump(); }
+
+  void pump() {
+    worker_->post([this] { work(); });
+  }
+
+  // From here on: the worker's thread.
+  void work() {
+    for (;;) {
+      send_due();
+      std::optional<EncodeOrder> order;
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        order = queue_->next_to_encode(steady_now());
+        if (next_encoder_) encoder_ = std::move(next_encoder_);
+      }
+      if (!order) break;
+      encode(*order);
+    }
+    tell_state();
+  }
+
+  void send_due() {
+    for (;;) {
+      std::optional<SendOrder> order;
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        order = queue_->next_to_send(steady_now());
+      }
+      if (!order) return;
+      const auto out = boost::make_shared<rprr_msgs::EncodedFrame>();
+      out->header.stamp = to_time(order->stamp);
+      out->header.frame_id = order->frame_id;
+      out->exchange = order->exchange;
+      out->data = std::move(order->data);
+      health_->count("bytes sent", out->data.size());
+      publisher_.publish(out);
     }
   }
 
-  void encode(const rprr_msgs::OutgoingFrame& message) {
+  void encode(const EncodeOrder& order) {
+    const auto& message = *static_cast<const rprr_msgs::OutgoingFrame*>(order.frame.content.get());
     Result<OutgoingImages> images = images_of(message, depth_unit_);
-    Result<bool> encoded = images ? encoder_->encode(images->depth, images->bgr, images->frame)
-                                  : Result<bool>(Error{images.reason()});
+    if (images && order.as_whole) make_whole(order, images->frame);
+    const Result<bool> encoded =
+        images ? encoder_->encode_within(images->depth, images->bgr, images->frame, order.limit)
+               : Result<bool>(Error{images.reason()});
     if (!encoded) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      queue_->failed();
       health_->error("unusable",
-                     "a frame on " + subscriber_.getTopic() + " was not sent: " + encoded.reason());
+                     "a frame on /" + robot_ + "/rprr/outgoing was not sent: " + encoded.reason());
       return;
     }
-    const auto out = boost::make_shared<rprr_msgs::EncodedFrame>();
-    out->header.stamp = message.header.stamp;
-    out->header.frame_id = clean_frame(message.header.frame_id);
-    out->exchange = message.exchange;
     EncodedSizes sizes;
-    out->data = serialise(images->frame, &sizes);
-    publisher_.publish(out);
+    Bytes data = serialise(images->frame, &sizes);
     report(images->frame, sizes);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    queue_->encoded(order, std::move(data));
+  }
+
+  void make_whole(const EncodeOrder& order, EncodedFrame& frame) {
+    frame.sparse = false;
+    frame.mask = BlockMask();
+    frame.depth_mask = BlockMask();
+    health_->warn("reference not acknowledged",
+                  "the station did not acknowledge the frame of '" + order.frame.reference +
+                      "' that a frame refers to, so that goes out whole; look at the link between "
+                      "that robot and the station, or raise ~receipt_timeout");
   }
 
   void report(const EncodedFrame& frame, const EncodedSizes& sizes) {
     health_->count(frame.sparse ? "sparse frames" : "whole frames");
-    health_->count("bytes sent", sizes.total);
     health_->show("last frame, bytes", std::to_string(sizes.total));
     health_->show("last frame, bytes of depth", std::to_string(sizes.depth));
     health_->show("last frame, bytes of colour", std::to_string(sizes.colour + sizes.base));
@@ -97,12 +252,44 @@ class EncoderNodelet : public nodelet::Nodelet {
     health_->show("last frame, milliseconds", std::to_string(frame.report.ms_encode));
   }
 
+  void tell_state() {
+    RadioRoom room;
+    double backlog = 0.0;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      room = queue_->room(steady_now());
+      backlog = queue_->backlog(steady_now());
+      health_->show("frames repeated", std::to_string(queue_->repeated()));
+    }
+    const bool same = room.ready == told_.ready && room.references == told_.references;
+    const Stamp now = steady_now();
+    if (same && now - told_at_ < kTellAgain) return;
+    told_at_ = now;
+    told_ = room;
+    rprr_msgs::RadioState state;
+    state.ready = room.ready ? 1 : 0;
+    for (const Stamp stamp : room.references) state.references.push_back(to_time(stamp));
+    state.backlog = static_cast<float>(backlog);
+    state_.publish(state);
+    health_->show("seconds of backlog", std::to_string(backlog));
+  }
+
   std::string robot_;
   double depth_unit_ = 0.0;
+  FrameCodecOptions options_;
   std::unique_ptr<Health> health_;
-  std::unique_ptr<FrameEncoder> encoder_;  // the worker's thread only
+  std::optional<EncoderConfig> config_;  // the callbacks'
+  std::mutex mutex_;                     // of the next two
+  std::unique_ptr<SendQueue> queue_;
+  std::unique_ptr<FrameEncoder> next_encoder_;  // after a reconfiguration
+  std::unique_ptr<FrameEncoder> encoder_;       // the worker's, as the next two
+  RadioRoom told_;
+  Stamp told_at_ = 0;
   ros::Publisher publisher_;
-  ros::Subscriber subscriber_;
+  ros::Publisher state_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<dynamic_reconfigure::Server<EncoderConfig>> server_;
+  ros::WallTimer timer_;
   std::unique_ptr<Worker> worker_;
 };
 

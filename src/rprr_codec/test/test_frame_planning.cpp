@@ -117,6 +117,42 @@ TEST_P(FramePlanning, TheSearchDoesNotDependOnWhereItBegins) {
       << "but for the times that the report states";
 }
 
+TEST_P(FramePlanning, ALimitMakesColoursCoarserAndLeavesDepthAlone) {
+  Result<FrameEncoder> encoder = FrameEncoder::create(options());
+  ASSERT_TRUE(encoder);
+  const auto bytes_within = [&](bool sparse, std::size_t limit, EncodedFrame& frame) {
+    frame = sparse_frame();
+    if (!sparse) {
+      frame = EncodedFrame();
+      frame.camera = sparse_frame().camera;
+    }
+    const Result<bool> done = encoder->encode_within(depth_, bgr_, frame, limit);
+    EXPECT_TRUE(done) << done.reason();
+    return serialise(frame).size();
+  };
+  for (const bool sparse : {false, true}) {
+    EncodedFrame usual;
+    EncodedFrame least;
+    const std::size_t most = bytes_within(sparse, 0, usual);
+    const std::size_t lowest = bytes_within(sparse, 1, least);
+    EXPECT_LT(lowest, most);
+    EXPECT_EQ(least.depth, usual.depth);
+    std::size_t last = lowest;
+    for (int i = 1; i <= 4; ++i) {
+      EncodedFrame frame;
+      const std::size_t limit = lowest + static_cast<std::size_t>(i) * (most - lowest) / 4;
+      const std::size_t bytes = bytes_within(sparse, limit, frame);
+      EXPECT_LE(bytes, limit) << (sparse ? "sparse" : "whole");
+      EXPECT_GE(bytes + 12, last) << "but for the times that the report states";
+      last = bytes;
+    }
+    EncodedFrame ample;
+    EXPECT_NEAR(static_cast<double>(bytes_within(sparse, 10 * most, ample)),
+                static_cast<double>(most), 12.0)
+        << "no finer than asked for";
+  }
+}
+
 TEST_P(FramePlanning, ATargetTakesNoMoreThanItNeeds) {
   std::size_t last = 0;
   for (const double target : {18.0, 22.0, 26.0, 99.0}) {

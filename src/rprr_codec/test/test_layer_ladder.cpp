@@ -90,5 +90,21 @@ TEST(LayerLadder, Names) {
   EXPECT_FALSE(objective_of(""));
 }
 
+TEST(CoarserQualities, RiseFromTheCoarsestToJustBelow) {
+  for (const std::string& name : colour_codecs()) {
+    const ColourCodecInfo codec = *colour_codec_info(name);
+    const int usual = like_webp(codec, 40);
+    const std::vector<int> qualities = coarser_qualities(codec, usual);
+    ASSERT_GT(qualities.size(), 3u) << name;
+    EXPECT_EQ(qualities.front(), codec.coarsest) << name;
+    const int sign = codec.best > codec.coarsest ? 1 : -1;
+    for (std::size_t i = 1; i < qualities.size(); ++i) {
+      EXPECT_GT(sign * qualities[i], sign * qualities[i - 1]) << name;
+    }
+    EXPECT_LT(sign * qualities.back(), sign * usual) << name;
+    EXPECT_TRUE(coarser_qualities(codec, codec.coarsest).empty()) << name;
+  }
+}
+
 }  // namespace
 }  // namespace rprr

@@ -3,11 +3,13 @@
 
 namespace rprr {
 
-void FrameBuffer::add(const RgbdFramePtr& frame) {
+bool FrameBuffer::add(const RgbdFramePtr& frame) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!frames_.empty() && frame->stamp < frames_.back()->stamp) frames_.clear();
+  const bool goes_on = frames_.empty() || frame->stamp >= frames_.back()->stamp;
+  if (!goes_on) frames_.clear();
   frames_.push_back(frame);
   if (frames_.size() > capacity_) frames_.pop_front();
+  return goes_on;
 }
 
 RgbdFramePtr FrameBuffer::find(Stamp stamp) const {

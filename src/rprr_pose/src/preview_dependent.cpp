@@ -22,16 +22,16 @@ class PreviewDependent final : public ExchangeRole {
 
   void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
     if (exchange_ || (last_start_ && now - *last_start_ < options_.min_period)) return;
-    last_start_ = now;
-    exchange_.emplace();
-    exchange_->number = next_number_++;
-    if (next_number_ == 0) next_number_ = 1;  // 0 stands for no exchange
-    exchange_->frame = frame;
-    exchange_->deadline = now + options_.step_timeout;
-    PreviewMessage message{frame->stamp, frame->frame_id, options_.peer, exchange_->number,
-                           encode_preview_content(content_of(*frame))};
-    exchange_->bytes = static_cast<std::uint32_t>(serialised_bytes(message));
-    out.send.emplace_back(std::move(message));
+    if (!radio_ready_) {
+      waiting_ = frame;
+      return;
+    }
+    begin(frame, now, out);
+  }
+
+  void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override {
+    radio_ready_ = radio.ready;
+    if (radio_ready_ && waiting_ && !exchange_) begin(waiting_, now, out);
   }
 
   void receive(const PoseMessage& message, Stamp, RoleOutput& out) override {
@@ -72,6 +72,20 @@ class PreviewDependent final : public ExchangeRole {
   }
 
  private:
+  void begin(PoseFramePtr frame, Stamp now, RoleOutput& out) {
+    waiting_.reset();
+    last_start_ = now;
+    exchange_.emplace();
+    exchange_->number = next_number_++;
+    if (next_number_ == 0) next_number_ = 1;  // 0 stands for no exchange
+    exchange_->frame = frame;
+    exchange_->deadline = now + options_.step_timeout;
+    PreviewMessage message{frame->stamp, frame->frame_id, options_.peer, exchange_->number,
+                           encode_preview_content(content_of(*frame))};
+    exchange_->bytes = static_cast<std::uint32_t>(serialised_bytes(message));
+    out.send.emplace_back(std::move(message));
+  }
+
   PreviewContent content_of(const PoseFrame& frame) const {
     PreviewContent content;
     content.camera_hash = camera_hash(frame.camera);
@@ -108,6 +122,8 @@ class PreviewDependent final : public ExchangeRole {
 
   const PreviewOptions options_;
   std::optional<Exchange> exchange_;
+  bool radio_ready_ = true;
+  PoseFramePtr waiting_;  // the newest frame, for when the radio is ready
   std::optional<Camera> peer_camera_;
   std::uint32_t camera_sent_ = 0;  // hash of the own camera that the reference is known to know
   std::uint32_t next_number_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,8 @@
 namespace rprr {
 namespace {
 
+constexpr std::size_t kSentKept = 8;               // frames, as references for later
+constexpr Duration kPatience = from_seconds(0.1);  // with a frame that is about to arrive
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
 
 class PreviewReference final : public ExchangeRole {
@@ -32,20 +35,52 @@ class PreviewReference final : public ExchangeRole {
     answer(*preview, now, out);
   }
 
-  void tick(Stamp now, RoleOutput&) override {
-    if (early_ && now >= early_deadline_) early_.reset();
+  void tick(Stamp now, RoleOutput& out) override {
+    if (!early_ || now < early_deadline_) return;
+    const PreviewMessage message = *std::exchange(early_, std::nullopt);
+    if (options_.reference_age == 0) return;
+    if (const PoseFramePtr frame = frames_.newest()) answer(message, frame, now, out);
   }
+
+  void set_radio(const RadioState& radio, Stamp, RoleOutput&) override { radio_ = radio; }
 
  private:
   void answer(const PreviewMessage& message, Stamp now, RoleOutput& out) {
-    const PoseFramePtr frame = frames_.nearest(message.stamp);
-    if (!frame) {  // it may be about to arrive
-      early_ = message;
-      early_deadline_ = now + options_.step_timeout;
-      return;
+    if (const PoseFramePtr frame = choose(message.stamp, now)) {
+      return answer(message, frame, now, out);
     }
+    early_ = message;  // its frame may be about to arrive
+    early_deadline_ =
+        now + (options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout});
+  }
+
+  // Null: none yet.
+  PoseFramePtr choose(Stamp stamp, Stamp now) {
+    if (!radio_.ready) {
+      if (const PoseFramePtr sent = last_sent(now)) return sent;
+    }
+    const PoseFramePtr near = frames_.nearest(stamp);
+    const PoseFramePtr newest = frames_.newest();
+    // The scene stands still, so a frame of another time is better than none.
+    if (near || options_.reference_age == 0 || !newest || newest->stamp <= stamp) return near;
+    return frames_.nearest(stamp, newest->stamp - stamp);
+  }
+
+  // Of the frames that were sent, the newest that the station holds, or else the newest.
+  PoseFramePtr last_sent(Stamp now) {
+    while (!sent_.empty() && now - sent_.front().at > options_.reference_age) sent_.pop_front();
+    const auto held = std::find_if(sent_.rbegin(), sent_.rend(), [this](const Sent& sent) {
+      return std::find(radio_.references.begin(), radio_.references.end(), sent.frame->stamp) !=
+             radio_.references.end();
+    });
+    if (held != sent_.rend()) return held->frame;
+    return sent_.empty() ? nullptr : sent_.back().frame;
+  }
+
+  void answer(const PreviewMessage& message, const PoseFramePtr& frame, Stamp now,
+              RoleOutput& out) {
     last_answered_ = message.exchange;
-    send_whole(frame, message.exchange, out);
+    send_whole(frame, message.exchange, now, out);
     RelativePoseMessage pose;
     pose.stamp = frame->stamp;
     pose.frame_id = frame->frame_id;
@@ -126,7 +161,11 @@ class PreviewReference final : public ExchangeRole {
     return poses;
   }
 
-  void send_whole(const PoseFramePtr& frame, std::uint32_t exchange, RoleOutput& out) const {
+  void send_whole(const PoseFramePtr& frame, std::uint32_t exchange, Stamp now, RoleOutput& out) {
+    const auto same = [&frame](const Sent& sent) { return sent.frame == frame; };
+    if (std::any_of(sent_.begin(), sent_.end(), same)) return;  // referred to once more
+    if (options_.reference_age > 0) sent_.push_back({frame, now});
+    if (sent_.size() > kSentKept) sent_.pop_front();
     FrameDecision whole;
     whole.frame = frame;
     whole.exchange = exchange;
@@ -135,8 +174,15 @@ class PreviewReference final : public ExchangeRole {
     out.decisions.push_back(std::move(whole));
   }
 
+  struct Sent {
+    PoseFramePtr frame;
+    Stamp at = 0;
+  };
+
   const PreviewOptions options_;
   const MotionPrior prior_;
+  RadioState radio_;
+  std::deque<Sent> sent_;  // oldest first
   RecentFrames frames_;
   PreviewPoseEstimator estimator_;
   std::optional<Camera> peer_camera_;

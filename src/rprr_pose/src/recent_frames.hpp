@@ -20,9 +20,10 @@ class RecentFrames {
     frames_.push_back(frame);
     if (frames_.size() > capacity_) frames_.pop_front();
   }
-  PoseFramePtr nearest(Stamp stamp) const {
+  PoseFramePtr nearest(Stamp stamp) const { return nearest(stamp, max_difference_); }
+  PoseFramePtr nearest(Stamp stamp, Duration max_difference) const {
     PoseFramePtr best;
-    Stamp best_difference = max_difference_;
+    Stamp best_difference = max_difference;
     for (const PoseFramePtr& frame : frames_) {
       const Stamp difference = std::abs(frame->stamp - stamp);
       if (difference > best_difference) continue;

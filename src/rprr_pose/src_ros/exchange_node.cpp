@@ -2,6 +2,7 @@
 #include "exchange_node.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr std::size_t kQueue = 200;          // jobs; an exchange is a few dozen messages at most
 constexpr std::size_t kLongestData = 65536;  // bytes; no message of an exchange comes near it
 const ros::WallDuration kTick(0.02);
+constexpr Duration kRadioSilence = from_seconds(5.0);  // its state comes every second
+constexpr double kClocksApart = 0.02;                  // seconds; the pairing of frames suffers
 
 // Timeouts must not follow a clock that is set or a bag that starts again.
 Stamp steady_now() {
@@ -58,13 +61,9 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const
   for (auto& [peer, role] : roles) sides_[peer].role = std::move(role);
   worker_ = std::make_unique<Worker>(kQueue);
   for (const auto& [peer, side] : sides_) subscribe(peer, listen_to_poses);
-  timer_ = nh_.createWallTimer(kTick, [this](const ros::WallTimerEvent&) {
-    worker_->post([this] {
-      for (const auto& [peer, side] : sides_) {
-        drive(peer, [](ExchangeRole& role, RoleOutput& out) { role.tick(steady_now(), out); });
-      }
-    });
-  });
+  timer_ = nh_.createWallTimer(
+      kTick, [this](const ros::WallTimerEvent&) { worker_->post([this] { on_tick(); }); });
+  subscribers_.push_back(nh_.subscribe(prefix + "radio", 4, &ExchangeNode::on_radio, this));
   input_ = std::make_unique<RgbdSubscriber>(nh_, private_nh, robot, health_,
                                             [this](const RgbdFramePtr& frame) { on_frame(frame); });
 }
@@ -74,12 +73,13 @@ void ExchangeNode::subscribe(const std::string& peer, bool listen_to_poses) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   const auto listen = [&](const std::string& topic, auto tag) {
     using Message = decltype(tag);
-    const boost::function<void(const boost::shared_ptr<Message const>&)> callback =
-        [this, peer](const boost::shared_ptr<Message const>& message) {
-          on_message(peer, message);
-        };
-    subscribers_.push_back(
-        nh_.subscribe<Message>(prefix + topic, 50, callback, ros::VoidConstPtr(), hints));
+    const boost::function<void(const ros::MessageEvent<Message const>&)> callback =
+        [this, peer](const ros::MessageEvent<Message const>& event) { on_message(peer, event); };
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(prefix + topic, 50,
+                                                                            callback);
+    options.transport_hints = hints;
+    subscribers_.push_back(nh_.subscribe(options));
   };
   listen("samples", rprr_msgs::SamplePoints());
   listen("update", rprr_msgs::PoseUpdate());
@@ -99,18 +99,80 @@ void ExchangeNode::on_frame(const RgbdFramePtr& frame) {
 
 template <typename Message>
 void ExchangeNode::on_message(const std::string& peer,
-                              const boost::shared_ptr<Message const>& message) {
+                              const ros::MessageEvent<Message const>& event) {
+  const boost::shared_ptr<Message const> message = event.getConstMessage();
+  const double age = (ros::Time::now() - message->header.stamp).toSec();
+  const std::string stranger = senders_.note(ros::message_traits::datatype<Message>() + peer,
+                                             event.getPublisherName(), steady_now());
+  if (!stranger.empty()) health_.warn("two senders", "as '" + peer + "': " + stranger);
   if (data_size(*message) > kLongestData) {
     return health_.warn("message too long", "a message of " + peer +
                                                 " is too long to be part of an "
                                                 "exchange; check who publishes as that robot");
   }
-  worker_->post([this, peer, message] {
+  worker_->post([this, peer, message, age] {
     const PoseMessage received = from_ros(*message);
+    time_message(peer, received, age);
     drive(peer, [&received](ExchangeRole& role, RoleOutput& out) {
       role.receive(received, steady_now(), out);
     });
   });
+}
+
+void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
+  RadioState radio;
+  radio.ready = message->ready != 0;
+  for (const ros::Time& stamp : message->references) radio.references.push_back(to_stamp(stamp));
+  worker_->post([this, radio] {
+    radio_told_ = steady_now();
+    set_radio(radio);
+  });
+}
+
+// From here on: the worker's thread.
+void ExchangeNode::set_radio(const RadioState& radio) {
+  for (const auto& [peer, side] : sides_) {
+    drive(peer, [&radio](ExchangeRole& role, RoleOutput& out) {
+      role.set_radio(radio, steady_now(), out);
+    });
+  }
+}
+
+void ExchangeNode::on_tick() {
+  // An encoder that is gone must not keep exchanges from beginning.
+  if (radio_told_ != 0 && steady_now() - radio_told_ > kRadioSilence) {
+    radio_told_ = 0;
+    set_radio({});
+  }
+  for (const auto& [peer, side] : sides_) {
+    drive(peer, [](ExchangeRole& role, RoleOutput& out) { role.tick(steady_now(), out); });
+  }
+}
+
+// age: by this robot's clock, of the frame that the message belongs to.
+void ExchangeNode::time_message(const std::string& peer, const PoseMessage& message, double age) {
+  Side& side = sides_[peer];
+  const auto* pose = std::get_if<RelativePoseMessage>(&message);
+  if (pose == nullptr) {
+    side.question_age = age;
+  } else if (pose->dependent == robot_ && pose->dependent_age != 0.0) {
+    side.clock.add(pose->dependent_age - side.question_delay,
+                   age - static_cast<double>(pose->reply_delay), steady_now());
+    compare_clocks(peer, side);
+  }
+}
+
+void ExchangeNode::compare_clocks(const std::string& peer, Side& side) {
+  const auto clock = side.clock.estimate(steady_now());
+  if (!clock) return;
+  const std::string ms = std::to_string(static_cast<int>(std::lround(clock->offset * 1e3)));
+  health_.show("clock of " + peer + " is ahead, ms", ms);
+  health_.show("clock of " + peer + " is ahead, ms uncertain",
+               std::to_string(static_cast<int>(std::lround(clock->uncertainty * 1e3))));
+  if (std::abs(clock->offset) - clock->uncertainty < kClocksApart) return;
+  health_.warn("clocks differ", "the clock of '" + peer + "' is " + ms +
+                                    " ms ahead of this robot's, so frames of different instants "
+                                    "are paired: keep both together with chrony");
 }
 
 void ExchangeNode::drive(const std::string& peer,
@@ -125,7 +187,7 @@ void ExchangeNode::drive(const std::string& peer,
 }
 
 void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, double ms) {
-  for (const PoseMessage& message : output.send) publish(message);
+  for (const PoseMessage& message : output.send) publish(sides_[peer], message);
   for (const FrameDecision& decision : output.decisions) {
     const bool sparse = decision.action == FrameDecision::Action::kSendSparse;
     health_.count(sparse ? "poses accepted" : "frames sent whole");
@@ -141,15 +203,21 @@ void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, do
   }
 }
 
-void ExchangeNode::publish(const PoseMessage& message) {
+void ExchangeNode::publish(Side& side, const PoseMessage& message) {
+  const auto age = [](Stamp stamp) { return (ros::Time::now() - to_time(stamp)).toSec(); };
   if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
+    side.question_delay = age(samples->stamp);
     samples_.publish(to_ros(*samples));
   } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
     update_.publish(to_ros(*update));
   } else if (const auto* preview = std::get_if<PreviewMessage>(&message)) {
+    side.question_delay = age(preview->stamp);
     preview_.publish(to_ros(*preview));
   } else {
-    pose_.publish(to_ros(std::get<RelativePoseMessage>(message)));
+    RelativePoseMessage pose = std::get<RelativePoseMessage>(message);
+    pose.dependent_age = side.question_age;
+    pose.reply_delay = static_cast<float>(age(pose.stamp));
+    pose_.publish(to_ros(pose));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/PoseUpdate.h>
+#include <rprr_msgs/RadioState.h>
 #include <rprr_msgs/RelativePose.h>
 #include <rprr_msgs/SamplePoints.h>
 
@@ -15,7 +16,9 @@
 
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/rgbd_subscriber.hpp"
+#include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
+#include "rprr_pose/clock_offset.hpp"
 #include "rprr_pose/exchange.hpp"
 
 namespace rprr {
@@ -36,22 +39,33 @@ class ExchangeNode {
   struct Side {
     std::unique_ptr<ExchangeRole> role;
     double ms = 0.0;  // processor time of the exchange under way
+    // To compare clocks, seconds by this robot's:
+    double question_age = 0.0;    // of the peer's frame when its last message came
+    double question_delay = 0.0;  // from this robot's frame until its last message went
+    ClockOffset clock;
   };
 
   void subscribe(const std::string& peer, bool listen_to_poses);
   void on_frame(const RgbdFramePtr& frame);
   template <typename Message>
-  void on_message(const std::string& peer, const boost::shared_ptr<Message const>& message);
+  void on_message(const std::string& peer, const ros::MessageEvent<Message const>& event);
+  void on_radio(const rprr_msgs::RadioStateConstPtr& message);
+  void on_tick();
+  void set_radio(const RadioState& radio);
+  void time_message(const std::string& peer, const PoseMessage& message, double age);
+  void compare_clocks(const std::string& peer, Side& side);
   void drive(const std::string& peer,
              const std::function<void(ExchangeRole&, RoleOutput&)>& action);
   void publish(const std::string& peer, const RoleOutput& output, double ms);
-  void publish(const PoseMessage& message);
+  void publish(Side& side, const PoseMessage& message);
 
   ros::NodeHandle nh_;
   const std::string robot_;
   Health health_;
   Observer observer_;
-  std::map<std::string, Side> sides_;  // worker thread only
+  std::map<std::string, Side> sides_;  // worker thread only, as the next
+  Stamp radio_told_ = 0;               // when the radio's state came; 0: none is known
+  SenderWatch senders_;
   ros::Publisher samples_, update_, preview_, pose_, event_;
   std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
   std::vector<ros::Subscriber> subscribers_;

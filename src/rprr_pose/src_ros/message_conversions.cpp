@@ -50,6 +50,8 @@ rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   out.iterations = message.iterations;
   out.inliers = message.inliers;
   out.residual = message.residual;
+  out.dependent_age = message.dependent_age;
+  out.reply_delay = message.reply_delay;
   out.reference_camera = message.reference_camera;
   out.bytes_spent = message.bytes_spent;
   return out;
@@ -88,6 +90,8 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   out.iterations = message.iterations;
   out.inliers = message.inliers;
   out.residual = message.residual;
+  out.dependent_age = message.dependent_age;
+  out.reply_delay = message.reply_delay;
   out.reference_camera = message.reference_camera;
   out.bytes_spent = message.bytes_spent;
   return out;

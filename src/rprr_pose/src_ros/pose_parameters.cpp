@@ -62,6 +62,7 @@ PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std
   private_nh.param("preview_warm_evidence", limits.warm_evidence, limits.warm_evidence);
   seconds("step_timeout", options.step_timeout);
   seconds("min_period", options.min_period);
+  seconds("reference_age", options.reference_age);
   seconds("max_frame_difference", options.max_stamp_difference);
   return options;
 }

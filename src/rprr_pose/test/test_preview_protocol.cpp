@@ -120,6 +120,73 @@ TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
   EXPECT_EQ(pose().status, PoseStatus::kAccepted);
 }
 
+TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) {
+  dependent->set_radio({false, {}}, 0, at_b);
+  for (Stamp stamp = 1000; stamp < 1003; ++stamp) dependent->offer(frame_b(stamp), stamp, at_b);
+  EXPECT_TRUE(at_b.send.empty());
+  dependent->set_radio({true, {}}, 1010, at_b);
+  ASSERT_EQ(at_b.send.size(), 1u);
+  EXPECT_EQ(std::get<PreviewMessage>(at_b.send[0]).stamp, 1002);
+  dependent->set_radio({true, {}}, 1011, at_b);
+  EXPECT_EQ(at_b.send.size(), 1u) << "one exchange at a time";
+}
+
+// A reference whose radio is busy: frames sent at 1000 and 2000, of which the station holds one.
+class BusyReference : public PreviewProtocol {
+ protected:
+  BusyReference() {
+    PreviewOptions options = options_for("a", "b");
+    options.reference_age = kAge;
+    reference = make_preview_reference(options);
+    exchange(1000);
+    exchange(2000);
+  }
+  static constexpr Duration kAge = from_seconds(5.0);
+};
+
+TEST_F(BusyReference, RefersToWhatTheStationHolds) {
+  reference->set_radio({false, {1000}}, now, at_a);
+  exchange(3000);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_EQ(pose().stamp, 1000);
+  EXPECT_EQ(pose().dependent_stamp, 3000);
+  ASSERT_EQ(at_a.decisions.size(), 1u) << "nothing is sent whole once more";
+  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kSendSparse);
+  ASSERT_EQ(at_b.decisions.size(), 1u);
+  EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendSparse);
+}
+
+TEST_F(BusyReference, OrToTheLastThatWasSent) {
+  reference->set_radio({false, {}}, now, at_a);
+  exchange(3000);
+  EXPECT_EQ(pose().stamp, 2000);
+}
+
+TEST_F(BusyReference, ButNotToAnOldOne) {
+  reference->set_radio({false, {1000}}, now, at_a);
+  now = kAge + 1;
+  exchange(3000);
+  EXPECT_EQ(pose().stamp, 3000);
+  EXPECT_EQ(at_a.decisions.size(), 2u);
+}
+
+TEST_F(BusyReference, WithRoomItSendsANewOne) {
+  reference->set_radio({true, {1000, 2000}}, now, at_a);
+  exchange(3000);
+  EXPECT_EQ(pose().stamp, 3000);
+}
+
+TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
+  at_a = at_b = {};
+  const Stamp later = from_seconds(500.0);
+  dependent->offer(frame_b(later), now, at_b);
+  reference->receive(at_b.send.at(0), now, at_a);
+  EXPECT_TRUE(at_a.send.empty()) << "its own frame may be about to arrive";
+  reference->tick(now + from_seconds(0.2), at_a);
+  ASSERT_EQ(at_a.send.size(), 1u);
+  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+}
+
 TEST_F(PreviewProtocol, DoubledPreviewsAreAnsweredOnce) {
   reference->offer(frame_a(), 0, at_a);
   dependent->offer(frame_b(), 0, at_b);

@@ -86,6 +86,12 @@ std::vector<OutgoingDecision> Outgoing::tick(Stamp now) {
   return decisions;
 }
 
+void Outgoing::restart() {
+  waiting_.clear();
+  early_.clear();
+  decided_ = RecentStamps();
+}
+
 bool Outgoing::waits(Stamp stamp) const {
   return std::any_of(waiting_.begin(), waiting_.end(),
                      [stamp](const Waiting& frame) { return frame.stamp == stamp; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame_matcher.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rprr_geometry_ros/conversions.hpp"
@@ -9,23 +10,28 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kWaitingEvents = 16;
+constexpr std::size_t kMatchedKept = 10;
 
 }  // namespace
 
 FrameMatcher::FrameMatcher(std::size_t frames_held, double patience_seconds, Matched matched,
-                           Missed missed)
+                           Missed missed, std::function<void()> restarted)
     : frames_(frames_held),
       patience_(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(patience_seconds))),
       matched_(std::move(matched)),
-      missed_(std::move(missed)) {
+      missed_(std::move(missed)),
+      restarted_(std::move(restarted)) {
 }
 
 void FrameMatcher::add_frame(const RgbdFramePtr& frame) {
-  frames_.add(frame);
+  if (!frames_.add(frame)) {
+    matched_frames_.clear();
+    restarted_();
+  }
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
     if (to_stamp(waiting->event->header.stamp) == frame->stamp) {
-      matched_(waiting->event, frame);
+      match(waiting->event, frame);
       waiting = waiting_.erase(waiting);
     } else {
       ++waiting;
@@ -34,14 +40,28 @@ void FrameMatcher::add_frame(const RgbdFramePtr& frame) {
 }
 
 void FrameMatcher::add_event(const rprr_msgs::ExchangeEventConstPtr& event) {
-  if (const RgbdFramePtr frame = frames_.find(to_stamp(event->header.stamp))) {
-    return matched_(event, frame);
-  }
+  if (const RgbdFramePtr frame = find(to_stamp(event->header.stamp))) return match(event, frame);
   if (waiting_.size() >= kWaitingEvents) {
     missed_(waiting_.front().event);
     waiting_.pop_front();
   }
   waiting_.push_back({event, Clock::now() + patience_});
+}
+
+void FrameMatcher::match(const rprr_msgs::ExchangeEventConstPtr& event, const RgbdFramePtr& frame) {
+  if (std::find(matched_frames_.begin(), matched_frames_.end(), frame) == matched_frames_.end()) {
+    matched_frames_.push_back(frame);
+    if (matched_frames_.size() > kMatchedKept) matched_frames_.pop_front();
+  }
+  matched_(event, frame);
+}
+
+RgbdFramePtr FrameMatcher::find(Stamp stamp) const {
+  if (RgbdFramePtr frame = frames_.find(stamp)) return frame;
+  for (const RgbdFramePtr& frame : matched_frames_) {
+    if (frame->stamp == stamp) return frame;
+  }
+  return nullptr;
 }
 
 void FrameMatcher::tick() {

@@ -18,7 +18,9 @@ class FrameMatcher {
   using Matched = std::function<void(const rprr_msgs::ExchangeEventConstPtr&, const RgbdFramePtr&)>;
   using Missed = std::function<void(const rprr_msgs::ExchangeEventConstPtr&)>;
 
-  FrameMatcher(std::size_t frames_held, double patience_seconds, Matched matched, Missed missed);
+  /// restarted: time went back (a bag that starts again), so stamps mean other frames from now on.
+  FrameMatcher(std::size_t frames_held, double patience_seconds, Matched matched, Missed missed,
+               std::function<void()> restarted);
 
   void add_frame(const RgbdFramePtr& frame);
   void add_event(const rprr_msgs::ExchangeEventConstPtr& event);
@@ -32,10 +34,15 @@ class FrameMatcher {
     Clock::time_point deadline;
   };
 
+  void match(const rprr_msgs::ExchangeEventConstPtr& event, const RgbdFramePtr& frame);
+  RgbdFramePtr find(Stamp stamp) const;
+
   FrameBuffer frames_;
+  std::deque<RgbdFramePtr> matched_frames_;  // kept longer: exchanges may refer to them again
   Clock::duration patience_;
   Matched matched_;
   Missed missed_;
+  std::function<void()> restarted_;
   std::deque<Waiting> waiting_;
 };
 

@@ -64,7 +64,7 @@ class PredictionNodelet : public nodelet::Nodelet {
     matcher_ = std::make_unique<FrameMatcher>(
         static_cast<std::size_t>(frames_held), wait_for_frame,
         [this](const auto& event, const auto& frame) { on_match(event, frame); },
-        [this](const auto& event) { on_miss(*event); });
+        [this](const auto& event) { on_miss(*event); }, [this] { sent_ = RecentStamps(); });
     images_ = std::make_unique<RgbdSubscriber>(
         nh, private_nh, robot_, *health_,
         [this](const RgbdFramePtr& frame) { matcher_->add_frame(frame); });

@@ -57,7 +57,7 @@ class ValidationNodelet : public nodelet::Nodelet {
     matcher_ = std::make_unique<FrameMatcher>(
         static_cast<std::size_t>(frames_held), wait_for_frame,
         [this](const auto& event, const auto& frame) { on_match(event, frame); },
-        [this](const auto& event) { on_miss(*event); });
+        [this](const auto& event) { on_miss(*event); }, [this] { on_restart(); });
     images_ = std::make_unique<RgbdSubscriber>(
         nh, private_nh, robot_, *health_,
         [this](const RgbdFramePtr& frame) { matcher_->add_frame(frame); });
@@ -99,6 +99,12 @@ class ValidationNodelet : public nodelet::Nodelet {
                        "an image on /" +
                        robot_ +
                        "/camera/rgb/image_rect_color; raise ~frames_held if exchanges are slow");
+  }
+
+  void on_restart() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    outgoing_->restart();
+    held_.clear();
   }
 
   // The worker's thread.

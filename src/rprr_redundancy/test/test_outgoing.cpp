@@ -50,6 +50,16 @@ TEST_F(OutgoingTest, WholeGoesOutAtOnceAndOnce) {
   EXPECT_TRUE(outgoing.whole(100, 5, "again").empty());
 }
 
+TEST_F(OutgoingTest, AfterARestartStampsNameOtherFrames) {
+  outgoing.whole(100, 4, "nobody spoke");
+  outgoing.accepted(101, 5, mask_of({3}), 0);
+  outgoing.restart();
+  EXPECT_EQ(outgoing.waiting(), 0u);
+  EXPECT_EQ(outgoing.whole(100, 6, "again").size(), 1u);
+  outgoing.accepted(101, 7, mask_of({3}), 0);
+  EXPECT_EQ(outgoing.prediction(message(7, 101, predicted), 1).size(), 1u);
+}
+
 TEST_F(OutgoingTest, SparseIsTheUnionOfBothSets) {
   EXPECT_TRUE(outgoing.accepted(100, 4, mask_of({3, 9}), 0).empty());
   const auto decisions = outgoing.prediction(message(4, 100, predicted), 1);

@@ -50,17 +50,54 @@ Station::Station(StationOptions options, std::unique_ptr<ColourDecoder> colour)
       decoder_(std::move(colour)),
       synthesizer_(options_.synthesis),
       stitcher_(options_.stitch) {
-  for (const std::string& robot : options_.robots) robots_[robot];
+  for (const std::string& robot : options_.robots) {
+    robots_[robot].chunks = FrameAssembler(options_.largest_message);
+  }
 }
 
 StationOutput Station::receive(const ReceivedMessage& message, Stamp now) {
   StationOutput output = tick(now);
+  if (is_chunk(message.data)) {
+    receive_chunk(message, now, output);
+  } else {
+    receive_frame(message, now, output);
+  }
+  return output;
+}
+
+void Station::receive_chunk(const ReceivedMessage& message, Stamp now, StationOutput& output) {
+  const auto robot = robots_.find(message.robot);
+  const Result<FrameChunk> chunk =
+      robot == robots_.end()
+          ? Result<FrameChunk>(Error{"robot '" + message.robot + "' is not configured"})
+          : parse_chunk(message.data);
+  if (!chunk) {
+    output.errors.push_back({message.robot, message.stamp, chunk.reason()});
+    return;
+  }
+  FrameAssembler& chunks = robot->second.chunks;
+  const std::size_t bytes = encoded_message_bytes(message.frame_id.size(), message.data.size);
+  const auto frame = chunks.add(message.stamp, message.frame_id, *chunk, bytes);
+  if (chunks.incomplete() != robot->second.incomplete) {
+    robot->second.incomplete = chunks.incomplete();
+    output.errors.push_back({message.robot, message.stamp, "parts of a frame did not come"});
+  }
+  if (!frame) return;
+  ReceivedMessage whole = message;
+  whole.frame_id = frame->frame_id;
+  whole.data = frame->data;
+  whole.message_bytes = frame->message_bytes;
+  receive_frame(whole, now, output);
+}
+
+void Station::receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output) {
   RebuiltFrame frame;
   Result<EncodedFrame> encoded = parse(message, frame);
   if (!encoded) {
     output.errors.push_back({message.robot, message.stamp, encoded.reason()});
-    return output;
+    return;
   }
+  robots_[message.robot].last = message.stamp;
   account(message, *encoded, frame);
   if (!encoded->sparse) {
     rebuild_whole(std::move(frame), *encoded, output);
@@ -71,7 +108,6 @@ StationOutput Station::receive(const ReceivedMessage& message, Stamp now) {
   } else {
     wait(std::move(frame), std::move(*encoded), now, output);
   }
-  return output;
 }
 
 StationOutput Station::tick(Stamp now) {
@@ -82,8 +118,18 @@ StationOutput Station::tick(Stamp now) {
       give_up(waiting.front(), "its reference did not come in time", output);
       waiting.pop_front();
     }
+    for (Waiting& frame : waiting) {
+      if (frame.ask_at == 0 || now < frame.ask_at) continue;
+      frame.ask_at = 0;
+      output.repeats.push_back({frame.encoded.reference, frame.encoded.reference_stamp});
+    }
   }
   return output;
+}
+
+Stamp Station::last(const std::string& robot) const {
+  const auto found = robots_.find(robot);
+  return found == robots_.end() ? 0 : found->second.last;
 }
 
 std::vector<Stamp> Station::held(const std::string& robot) const {
@@ -143,7 +189,9 @@ void Station::account(const ReceivedMessage& message, const EncodedFrame& encode
     frame.blocks_colour_only = frame.blocks_sent - frame.received_depth.count();
   }
 
-  const std::size_t own = encoded_message_bytes(message.frame_id.size(), message.data.size);
+  const std::size_t own = message.message_bytes > 0
+                              ? message.message_bytes
+                              : encoded_message_bytes(message.frame_id.size(), message.data.size);
   const EncodedSizes& sizes = frame.sizes;
   frame.bytes_masks = sizes.mask + encoded.report.bytes_masks;
   frame.bytes_extras = own - std::min(own, sizes.mask + sizes.depth + sizes.colour + sizes.base);
@@ -228,7 +276,7 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
 
 void Station::wait(RebuiltFrame frame, EncodedFrame encoded, Stamp now, StationOutput& output) {
   if (options_.waiting == 0) {
-    return give_up({std::move(frame), std::move(encoded), now}, "its reference is not held",
+    return give_up({std::move(frame), std::move(encoded), now, 0}, "its reference is not held",
                    output);
   }
   auto& waiting = robots_[frame.robot].waiting;
@@ -238,7 +286,9 @@ void Station::wait(RebuiltFrame frame, EncodedFrame encoded, Stamp now, StationO
     give_up(waiting.front(), "too many frames wait for references", output);
     waiting.pop_front();
   }
-  waiting.push_back({std::move(frame), std::move(encoded), now + options_.wait_for_reference});
+  // It may be under way: a while later it is lost.
+  waiting.push_back({std::move(frame), std::move(encoded), now + options_.wait_for_reference,
+                     now + options_.wait_for_reference / 4});
 }
 
 void Station::serve_waiting(const std::string& reference, Stamp stamp, StationOutput& output) {

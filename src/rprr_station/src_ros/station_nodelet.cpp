@@ -21,12 +21,20 @@
 
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_station/station.hpp"
 #include "station_messages.hpp"
 #include "station_parameters.hpp"
 
 namespace rprr {
+namespace {
+
+constexpr std::size_t kLongestChunk = 16384;  // bytes; a longer message is a frame in one piece
+constexpr std::size_t kChunksOfAFrame = 32;   // that may wait, of each frame that may
+constexpr unsigned kTicksOfReceipts = 5;      // between receipts that nothing else causes
+
+}  // namespace
 
 /// The remote monitoring station over topics: encoded frames of all robots in, views, statistics
 /// and receipts out.
@@ -58,12 +66,16 @@ class StationNodelet : public nodelet::Nodelet {
     frusta_ = nh.advertise<visualization_msgs::MarkerArray>("/station/frusta", 20);
     station_ = std::make_unique<Station>(parameters_.station, make_isolated_colour_decoder());
     // One job for every message that waits, one for the tick: no job is ever dropped.
-    worker_ = std::make_unique<Worker>(names.size() * parameters_.queue + 1);
+    worker_ = std::make_unique<Worker>(names.size() * parameters_.queue * kChunksOfAFrame + 1);
     for (const std::string& name : names) advertise(nh, name);
     for (const std::string& name : names) {
-      robots_[name].encoded = nh.subscribe<rprr_msgs::EncodedFrame>(
-          "/" + name + "/rprr/encoded", 8,
-          [this, name](const rprr_msgs::EncodedFrameConstPtr& message) { enqueue(name, message); });
+      using Event = ros::MessageEvent<rprr_msgs::EncodedFrame const>;
+      ros::SubscribeOptions options;
+      options.initByFullCallbackType<const Event&>(
+          "/" + name + "/rprr/encoded", 32,
+          [this, name](const Event& event) { on_encoded(name, event); });
+      options.transport_hints = ros::TransportHints().tcpNoDelay();
+      robots_[name].encoded = nh.subscribe(options);
     }
     timer_ = nh.createWallTimer(ros::WallDuration(0.2), &StationNodelet::on_timer, this);
   }
@@ -81,13 +93,21 @@ class StationNodelet : public nodelet::Nodelet {
 
   static Stamp now() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
 
+  void on_encoded(const std::string& name,
+                  const ros::MessageEvent<rprr_msgs::EncodedFrame const>& event) {
+    const std::string stranger = senders_.note(name, event.getPublisherName(), now());
+    if (!stranger.empty())
+      health_->warn("two senders " + name, "/" + name + "/rprr/encoded: " + stranger);
+    enqueue(name, event.getConstMessage());
+  }
+
   // Every robot has a queue of its own: who floods the station loses his own frames only.
   void enqueue(const std::string& name, const rprr_msgs::EncodedFrameConstPtr& message) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       auto& queue = robots_[name].queue;
       queue.push_back(message);
-      if (queue.size() > parameters_.queue) {
+      if (is_too_long(queue)) {
         queue.pop_front();
         health_->warn("too slow " + name, "/" + name +
                                               "/rprr/encoded comes faster than it is decoded; the "
@@ -96,6 +116,16 @@ class StationNodelet : public nodelet::Nodelet {
       }
     }
     worker_->post([this, name] { decode_next(name); });
+  }
+
+  // A frame that comes in chunks takes many messages, none of them long.
+  bool is_too_long(const std::deque<rprr_msgs::EncodedFrameConstPtr>& queue) const {
+    const auto is_long = [](const rprr_msgs::EncodedFrameConstPtr& message) {
+      return message->data.size() > kLongestChunk;
+    };
+    const auto frames = std::count_if(queue.begin(), queue.end(), is_long);
+    return queue.size() > parameters_.queue * kChunksOfAFrame ||
+           static_cast<std::size_t>(frames) > parameters_.queue;
   }
 
   void on_timer(const ros::WallTimerEvent&) {
@@ -110,6 +140,9 @@ class StationNodelet : public nodelet::Nodelet {
         tick_posted_ = false;
       }
       publish(station_->tick(now()));
+      if (++ticks_ % kTicksOfReceipts == 0) {
+        for (const auto& [name, robot] : robots_) publish_receipt(name, {});
+      }
     });
   }
 
@@ -129,23 +162,23 @@ class StationNodelet : public nodelet::Nodelet {
     received.frame_id = message->header.frame_id;
     received.exchange = message->exchange;
     received.data = ByteView(message->data);
-    publish(station_->receive(received, now()));
+    const Stamp last = station_->last(name);
+    const StationOutput output = station_->receive(received, now());
+    if (station_->last(name) != last) publish_receipt(name, {});
+    publish(output);
   }
 
   void publish(const StationOutput& output) {
-    std::map<std::string, std::vector<Stamp>> receipts;  // robot, stamps to repeat
-    for (const RebuiltFrame& frame : output.frames) {
-      publish(frame);
-      if (!frame.sparse) receipts[frame.robot];
-    }
+    for (const RebuiltFrame& frame : output.frames) publish(frame);
     for (const StationError& error : output.errors) {
       health_->error("frame of " + error.robot,
                      "/" + error.robot + "/rprr/encoded: " + error.reason + "; it is dropped");
     }
+    std::map<std::string, std::vector<Stamp>> repeats;
     for (const RepeatRequest& repeat : output.repeats) {
-      receipts[repeat.robot].push_back(repeat.stamp);
+      repeats[repeat.robot].push_back(repeat.stamp);
     }
-    for (const auto& [robot, repeats] : receipts) publish_receipt(robot, repeats);
+    for (const auto& [robot, stamps] : repeats) publish_receipt(robot, stamps);
   }
 
   void publish(const RebuiltFrame& frame) {
@@ -185,6 +218,7 @@ class StationNodelet : public nodelet::Nodelet {
     rprr_msgs::Receipt receipt;
     receipt.header.stamp = ros::Time::now();
     receipt.robot = robot;
+    receipt.last = to_time(station_->last(robot));
     for (const Stamp stamp : station_->held(robot)) receipt.held.push_back(to_time(stamp));
     for (const Stamp stamp : repeats) receipt.repeat.push_back(to_time(stamp));
     receipts_.publish(receipt);
@@ -196,9 +230,11 @@ class StationNodelet : public nodelet::Nodelet {
   ros::Publisher statistics_;
   ros::Publisher receipts_;
   ros::Publisher frusta_;
+  SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
-  std::unique_ptr<Station> station_;  // the worker's
+  std::unique_ptr<Station> station_;  // the worker's, as the next
+  unsigned ticks_ = 0;
   std::map<std::string, Robot> robots_;
   std::unique_ptr<Worker> worker_;
   ros::WallTimer timer_;

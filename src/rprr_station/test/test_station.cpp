@@ -202,6 +202,53 @@ TEST_F(StationTest, SparseMayComeBeforeItsReference) {
   EXPECT_EQ(station.waiting(), 0u);
 }
 
+TEST_F(StationTest, AFrameMayComeInChunksInAnyOrder) {
+  const Bytes bytes = serialise(whole_frame());
+  constexpr std::size_t kPiece = 1000;
+  const auto count = static_cast<std::uint16_t>((bytes.size() + kPiece - 1) / kPiece);
+  std::size_t message_bytes = 0;
+  for (std::uint16_t i = count; i-- > 0;) {
+    const ByteView rest = ByteView(bytes).from(i * kPiece);
+    const Bytes chunk = serialise(FrameChunk{7, i, count, rest.first(std::min(rest.size, kPiece))});
+    ReceivedMessage message{"a", 100, i == 0 ? "camera" : "", 3, chunk, 0};
+    message_bytes += encoded_message_bytes(message.frame_id.size(), chunk.size());
+    const StationOutput output = station.receive(message, 0);
+    EXPECT_TRUE(output.errors.empty());
+    EXPECT_EQ(station.last("a"), i == 0 ? 100 : 0);
+    ASSERT_EQ(output.frames.size(), i == 0 ? 1u : 0u);
+    if (i > 0) continue;
+    EXPECT_EQ(output.frames[0].frame_id, "camera");
+    EXPECT_EQ(cv::norm(output.frames[0].bgr, plain(10), cv::NORM_INF), 0);
+    EXPECT_EQ(output.frames[0].bytes_total - output.frames[0].report.bytes_pose -
+                  output.frames[0].report.bytes_masks,
+              message_bytes)
+        << "all chunks are counted";
+  }
+}
+
+TEST_F(StationTest, LostChunksAreReportedAndCostTheirFrameAlone) {
+  const Bytes bytes = serialise(whole_frame());
+  std::size_t errors = 0;
+  for (std::uint16_t number = 1; number <= 10; ++number) {
+    const Bytes chunk = serialise(FrameChunk{number, 0, 2, ByteView(bytes).first(100)});
+    errors += station.receive({"a", number, "camera", 3, chunk, 0}, 0).errors.size();
+  }
+  EXPECT_EQ(errors, 7u) << "a few may still be completed";
+  EXPECT_EQ(receive("a", 100, whole_frame()).frames.size(), 1u);
+}
+
+TEST_F(StationTest, AReferenceThatIsLateIsAskedForOnceMeanwhile) {
+  receive("b", 200, sparse_frame(100), 0);
+  EXPECT_TRUE(station.tick(kPatience / 8).repeats.empty()) << "it may be under way";
+  const StationOutput output = station.tick(kPatience / 2);
+  EXPECT_TRUE(output.errors.empty());
+  ASSERT_EQ(output.repeats.size(), 1u);
+  EXPECT_EQ(output.repeats[0].robot, "a");
+  EXPECT_EQ(output.repeats[0].stamp, 100);
+  EXPECT_TRUE(station.tick(kPatience / 2 + 1).repeats.empty());
+  EXPECT_EQ(receive("a", 100, whole_frame()).frames.size(), 2u) << "and then both come out";
+}
+
 TEST_F(StationTest, MissingReferenceIsGivenUpAndAskedFor) {
   receive("b", 200, sparse_frame(100), 0);
   EXPECT_TRUE(station.tick(kPatience - 1).errors.empty());

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/colour_layers.hpp"
@@ -83,6 +86,10 @@ class FrameEncoder {
   /// With the settings that the options ask for. Where no detail is sent, the blocks without depth
   /// leave frame.mask.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame);
+  /// The same, or where that is longer than limit (bytes of the encoded frame; 0: none) the finest
+  /// coarser colours that are within it; the coarsest if none is, since depth stays lossless.
+  Result<bool> encode_within(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame,
+                             std::size_t limit);
 
   /// encode in steps, for whoever tries several settings: depth and preparations once, then colours
   /// as often as one likes (through layers() without a frame). bgr is shared until the next frame.
@@ -96,9 +103,15 @@ class FrameEncoder {
  private:
   FrameEncoder(FrameCodecOptions options, ColourLayers layers);
   Result<bool> measure_independent(const DepthFrame& depth, int quality, EncodedFrame& frame);
+  using Judge = std::function<bool(const EncodedFrame&)>;
+  Result<bool> encode_as_asked(EncodedFrame& frame);
   Result<bool> plan(EncodedFrame& frame);
+  Result<bool> coarsen(EncodedFrame& frame, std::size_t limit);
+  std::vector<LayerSettings> coarser_settings(const EncodedFrame& frame) const;
+  Result<bool> search(const std::vector<LayerSettings>& rungs, bool finest, const Judge& good,
+                      int& last, EncodedFrame& frame);
+  const LayerLadder& ladder_for(const EncodedFrame& frame) const;
   Result<bool> try_settings(const LayerSettings& settings, EncodedFrame& frame);
-  bool good_enough(const EncodedFrame& frame);
   Result<double> sent_psnr(const EncodedFrame& frame);
   Result<float> noise_of_base(const EncodedFrame& frame, bool with_detail);
 
@@ -106,6 +119,7 @@ class FrameEncoder {
   ColourLayers layers_;
   std::array<LayerLadder, 2> ladders_;  // for many blocks, for few
   int last_rung_;                       // where the search for the next frame's begins
+  int last_coarse_rung_ = 0;            // likewise, below what the options ask for
   std::unique_ptr<DhcmEncoder> depth_;
   FrameDecoder own_decoder_;  // of payloads of our own making, in this process
 };

@@ -42,6 +42,7 @@ class LayerLadder {
 
   int rungs() const { return static_cast<int>(settings_.size()); }
   const LayerSettings& at(int rung) const { return settings_[static_cast<std::size_t>(rung)]; }
+  const std::vector<LayerSettings>& all() const { return settings_; }
   /// The rung that is like the usual quality.
   int usual() const { return usual_; }
 
@@ -49,6 +50,9 @@ class LayerLadder {
   std::vector<LayerSettings> settings_;
   int usual_ = 0;
 };
+
+/// Qualities of a codec from its coarsest to just below quality, each some 5 to 20% more bytes.
+std::vector<int> coarser_qualities(const ColourCodecInfo& codec, int quality);
 
 /// Fewer than this share of blocks are few.
 constexpr double kFewBlocksShare = 0.15;

@@ -15,8 +15,8 @@ class FrameBuffer {
   explicit FrameBuffer(std::size_t capacity) : capacity_(capacity) {}
 
   /// The oldest frame leaves when the buffer is full. A stamp before the newest one (a bag that
-  /// starts again) empties the buffer first.
-  void add(const RgbdFramePtr& frame);
+  /// starts again) empties the buffer first: false then.
+  bool add(const RgbdFramePtr& frame);
   /// The frame of exactly this stamp, or null.
   RgbdFramePtr find(Stamp stamp) const;
 

@@ -34,6 +34,13 @@ struct RoleOutput {
   std::vector<std::string> problems;  // hostile or unexpected input, for diagnostics
 };
 
+/// What a role needs to know of its robot's radio.
+struct RadioState {
+  bool ready = true;  // a frame more can be sent
+  std::vector<Stamp>
+      references;  // own whole frames that the station holds or was sent, newest last
+};
+
 /// One robot's side of the exchanges with one peer: a pure state machine. Frames, messages and the
 /// time (any monotonic clock, nanoseconds) go in; messages and decisions come out. Nodelets,
 /// rprr_eval and tests drive the same objects. One thread at a time.
@@ -46,6 +53,8 @@ class ExchangeRole {
   virtual void receive(const PoseMessage& message, Stamp now, RoleOutput& out) = 0;
   /// Time passes; call it a few times per timeout.
   virtual void tick(Stamp now, RoleOutput& out) = 0;
+  /// The radio has room, or has not. Roles that do not pace themselves ignore it.
+  virtual void set_radio(const RadioState& /*radio*/, Stamp /*now*/, RoleOutput& /*out*/) {}
 };
 
 }  // namespace rprr

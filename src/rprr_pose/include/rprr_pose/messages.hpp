@@ -41,8 +41,10 @@ struct RelativePoseMessage {
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz)
   std::uint16_t iterations = 0;
   std::uint16_t inliers = 0;
-  float residual = 0.0f;   // RMS, metres
-  Bytes reference_camera;  // empty if the dependent knows it
+  float residual = 0.0f;       // RMS, metres
+  double dependent_age = 0.0;  // seconds by the reference's clock (rprr_msgs/RelativePose), as the
+  float reply_delay = 0.0f;    // next: whoever puts it on the radio fills them in
+  Bytes reference_camera;      // empty if the dependent knows it
   std::uint32_t bytes_spent = 0;
 };
 

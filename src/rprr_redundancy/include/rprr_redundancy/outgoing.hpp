@@ -72,6 +72,9 @@ class Outgoing {
   /// Frames whose prediction did not come in time go out whole.
   std::vector<OutgoingDecision> tick(Stamp now);
 
+  /// Time went back: stamps name other frames from now on. What waits is forgotten.
+  void restart();
+
   /// Whether a frame waits for its prediction, and how many do.
   bool waits(Stamp stamp) const;
   std::size_t waiting() const { return waiting_.size(); }

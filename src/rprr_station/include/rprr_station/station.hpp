@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rprr_codec/encoded_frame.hpp"
+#include "rprr_codec/frame_chunk.hpp"
 #include "rprr_codec/frame_codec.hpp"
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
@@ -42,7 +43,8 @@ struct ReceivedMessage {
   Stamp stamp = 0;    // of the sender's frame
   std::string frame_id;
   std::uint32_t exchange = 0;
-  ByteView data;
+  ByteView data;                  // a frame's container, or a chunk of one (frame_chunk.hpp)
+  std::size_t message_bytes = 0;  // of all messages that carried it, serialised; 0: of this one
 };
 
 /// A robot's view as the station knows it. Images may be shared with the station: nobody writes to
@@ -112,11 +114,13 @@ class Station {
   Station(StationOptions options, std::unique_ptr<ColourDecoder> colour);
 
   StationOutput receive(const ReceivedMessage& message, Stamp now);
-  /// Gives up sparse frames whose reference does not come.
+  /// Asks for references that do not come and gives up sparse frames whose reference does not come.
   StationOutput tick(Stamp now);
 
   /// Stamps of the whole frames held of a robot, oldest first.
   std::vector<Stamp> held(const std::string& robot) const;
+  /// Stamp of the last frame that came of a robot, whole or not and whatever became of it; 0: none.
+  Stamp last(const std::string& robot) const;
   /// Sparse frames of all robots that wait for their reference.
   std::size_t waiting() const;
 
@@ -131,12 +135,18 @@ class Station {
     RebuiltFrame frame;
     EncodedFrame encoded;
     Stamp deadline;
+    Stamp ask_at = 0;  // for its reference; 0: was asked for
   };
   struct Robot {
     std::deque<Reference> references;
     std::deque<Waiting> waiting;
+    FrameAssembler chunks;
+    std::size_t incomplete = 0;  // frames of chunks that were reported as such
+    Stamp last = 0;
   };
 
+  void receive_chunk(const ReceivedMessage& message, Stamp now, StationOutput& output);
+  void receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output);
   Result<EncodedFrame> parse(const ReceivedMessage& message, RebuiltFrame& frame) const;
   void account(const ReceivedMessage& message, const EncodedFrame& encoded,
                RebuiltFrame& frame) const;

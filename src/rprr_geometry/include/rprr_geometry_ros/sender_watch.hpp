@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "rprr_geometry/stamp.hpp"
+
+namespace rprr {
+
+/// Notices when two nodes publish on a topic that should have one: two robots of one name, or
+/// somebody who pretends. Any thread may call it; memory is bounded.
+class SenderWatch {
+ public:
+  /// topic: any name for it; publisher: the node that sent a message now. Returns a text for people
+  /// if another node did so within the last seconds.
+  std::string note(const std::string& topic, const std::string& publisher, Stamp now);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::map<std::string, Stamp>> seen_;  // publishers of a topic, and when
+};
+
+}  // namespace rprr

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "rprr_geometry/stamp.hpp"
+
+namespace rprr {
+
+/// How far two robots' clocks are apart, from the times at which the messages of their exchanges
+/// left and came: as NTP does, from a question and its answer (RFC 5905, section 8). Of the recent
+/// exchanges the one with the shortest way there and back is believed.
+class ClockOffset {
+ public:
+  struct Estimate {
+    double offset = 0.0;       // seconds that the peer's clock is ahead of this one
+    double uncertainty = 0.0;  // seconds; half of the way there and back
+  };
+
+  /// there: by the peer's clock, the time between the question left (this robot's clock) and came;
+  /// back: likewise of the answer, the other way round. Seconds. Untrusted: what makes no sense is
+  /// ignored.
+  void add(double there, double back, Stamp now);
+  std::optional<Estimate> estimate(Stamp now);
+
+ private:
+  struct Sample {
+    double there;
+    double back;
+    Stamp at;
+  };
+  void forget_old(Stamp now);
+
+  std::deque<Sample> samples_;
+};
+
+}  // namespace rprr
