@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Three hosts that share one radio, as network namespaces; sourced by radio_test. Nothing in them can
-# reach another network: there is no link out of the namespaces made here.
+# Three hosts that share one radio, as network namespaces; sourced by radio_test. Nothing in them
+# can reach another network: there is no link out of the namespaces made here.
 #
 #   station --tx-->|            |--rx--> station
 #   a       --tx-->| in ==> out |--rx--> a
 #   b       --tx-->|            |--rx--> b
 #
-# Whatever a host sends passes `in ==> out` once, which alone is shaped: what one host sends, and every
-# acknowledgement, is missing to the others, as on a radio channel. Each host's packets wait in a queue
-# of their own and the channel goes round among the hosts that have some.
+# Whatever a host sends passes `in ==> out` once, which alone is shaped: what one host sends, and
+# every acknowledgement, is missing to the others, as on a radio channel. Each host's packets wait
+# in a queue of their own, and the channel goes round among the hosts that have some. (One queue for
+# all, as a plain tbf has, would let a large frame of a delay b's packets, which no radio does.)
 # shellcheck shell=bash
 
 hosts=(station a b)

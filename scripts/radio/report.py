@@ -16,6 +16,7 @@ import sys
 
 HOST_OF = {"10.77.0.1": "station", "10.77.0.2": "a", "10.77.0.3": "b"}
 OUR_NODES = ("/play_", "/watch_station", "/await_topics")
+LAST_ACKNOWLEDGEMENTS = 0.5  # s
 AGREE = 0.01  # share that meter and counters may differ by
 Line = collections.namedtuple("Line", "kind name way")  # kind: rprr, ros, test
 Sums = collections.namedtuple("Sums", "wire payload messages message_bytes")
@@ -43,7 +44,7 @@ def line_of(connection, master_port):
     ours = connection["caller"].startswith(OUR_NODES)
     if connection["kind"] == "topic":
         rprr = "/rprr/" in connection["name"] or connection["name"] == "/station/receipts"
-        kind = "rprr" if rprr else "test" if ours else "ros"
+        kind = "test" if ours else "rprr" if rprr else "ros"
         return Line(kind, connection["name"], f"{server} > {client}")
     kind = "test" if ours else "ros"
     if connection["kind"] == "xmlrpc":
@@ -87,22 +88,23 @@ class Run:
 
     def counted(self, first, last, direction):
         """Bytes by the interfaces' counters between two readings, by host."""
-        other = {"tx": "tx", "rx": "rx"}[direction]
-        return {host: self.counters[last][host][direction][0]["stats64"][other]["bytes"]
-                - self.counters[first][host][direction][0]["stats64"][other]["bytes"]
-                for host in self.counters[first]}
+        def read(when, host):
+            return self.counters[when][host][direction][0]["stats64"][direction]["bytes"]
+        return {host: read(last, host) - read(first, host) for host in self.counters[first]}
 
     def result(self):
         """Everything, as one dictionary."""
         begin, end = self.phases["ready"], self.phases["end"]
-        table = self.sums(begin, end)
+        start = self.phases["go"]
+        # What goes on for ever, goes on while one waits for the radio to be quiet.
+        table = self.sums(start, start + self.span + LAST_ACKNOWLEDGEMENTS)
         starting = self.sums(self.phases["begin"], begin)
         rprr = [sums for line, sums in table.items() if line.kind == "rprr"]
         robots = [sums for line, sums in table.items()
                   if line.kind == "rprr" and line.name != "/station/receipts"]
         received = self.counted("ready", "end", "rx")
         sent = self.counted("ready", "end", "tx")
-        metered = sum(sums.wire for sums in table.values())
+        metered = sum(sums.wire for sums in self.sums(begin, end).values())
         return {
             "settings": self.settings,
             "seconds": self.span,
@@ -115,6 +117,7 @@ class Run:
                 "rprr_wire": sum(sums.wire for sums in rprr),
                 "ros_wire": sum(s.wire for line, s in table.items() if line.kind == "ros"),
                 "test_wire": sum(s.wire for line, s in table.items() if line.kind == "test"),
+                "wire": sum(sums.wire for sums in table.values()),
                 "metered": metered,
                 "counters_received": received,
                 "counters_sent": sent,
@@ -158,6 +161,16 @@ def number(value, digits=0):
     return "-" if value is None else f"{value:.{digits}f}"
 
 
+def print_settings(settings):
+    print(f"\n{settings['mode']}: {settings['rate_kbit']} kbit/s shared by three hosts, "
+          f"{settings['folder']}, step {settings['step']}, {settings['fps']:g} frames per second "
+          f"offered for {settings['seconds']} s")
+    special = {"profile": settings["profile"], "arguments": settings["launch_args"],
+               "parameters": " ".join(settings["params"]), "send buffer": settings["send_buffer"],
+               "master at": settings["master"]}
+    print(", ".join(f"{name} {value}" for name, value in special.items() if value) + "\n")
+
+
 def print_lines(result):
     seconds = result["seconds"]
     print(f"{'what crosses the radio':<40}{'way':<18}{'msg/s':>7}{'message B/s':>13}"
@@ -193,7 +206,7 @@ def print_accounts(result):
             ("the same with receipts, TCPROS, TCP, IP, Ethernet", counts["rprr_wire"]),
             ("ROS's own traffic", counts["ros_wire"]),
             ("the test's own nodes", counts["test_wire"]),
-            ("all that the meter saw", counts["metered"]),
+            ("all that the meter saw, until the radio was quiet", counts["metered"]),
             ("interface counters, received", received),
             ("interface counters, sent", sum(counts["counters_sent"].values())))
     for name, value in rows:
@@ -211,8 +224,8 @@ def print_accounts(result):
         print(f"  protocol overhead on RPRR's messages: "
               f"{100 * (counts['rprr_wire'] / counts['messages'] - 1):.1f}%")
     start = result["start"]
-    print(f"  starting up: {start['wire']} bytes in {start['seconds']:.1f} s, of these " + ", ".join(
-        f"{name} {wire}" for name, wire in starting(start["lines"])))
+    parts = ", ".join(f"{name} {wire}" for name, wire in starting(start["lines"]))
+    print(f"  starting up: {start['wire']} bytes in {start['seconds']:.1f} s, of these {parts}")
 
 
 def print_together(results):
@@ -221,9 +234,12 @@ def print_together(results):
         late = frames["latency_ms"]
         return " / ".join(number(late[key]) for key in ("median", "90%", "worst"))
 
+    def rate(frames):
+        return number(frames["per_second"], 2)
+
     rows = [
-        ("frames of a at the station, per second", lambda r: number(r["frames"]["a"]["per_second"], 2)),
-        ("frames of b at the station, per second", lambda r: number(r["frames"]["b"]["per_second"], 2)),
+        ("frames of a at the station, per second", lambda r: rate(r["frames"]["a"])),
+        ("frames of b at the station, per second", lambda r: rate(r["frames"]["b"])),
         ("  of these rebuilt from a's (exchanges), per second",
          lambda r: number(r["frames"]["b"]["sparse"] / r["seconds"], 2)),
         ("bytes of a's frame, median", lambda r: number(r["frames"]["a"]["bytes_median"])),
@@ -232,7 +248,7 @@ def print_together(results):
         ("latency of b's frames, ms: median / 90% / worst", lambda r: latency(r["frames"]["b"])),
         ("PSNR of b's views, dB, median", lambda r: number(r["quality"]["psnr"], 2)),
         ("SSIM of b's views, median", lambda r: number(r["quality"]["ssim"], 3)),
-        ("wire, bytes per second", lambda r: number(r["bytes"]["metered"] / r["seconds"])),
+        ("wire, bytes per second", lambda r: number(r["bytes"]["wire"] / r["seconds"])),
         ("  of these ROS's own", lambda r: number(r["bytes"]["ros_wire"] / r["seconds"])),
     ]
     print(f"\n{'':<54}" + "".join(f"{r['settings']['mode']:>22}" for r in results))
@@ -247,10 +263,7 @@ def main():
     arguments = parser.parse_args()
     results = [Run(folder).result() for folder in arguments.folders]
     for result in results:
-        settings = result["settings"]
-        print(f"\n{settings['mode']}: {settings['rate_kbit']} kbit/s shared by three hosts, "
-              f"{settings['folder']}, step {settings['step']}, {settings['fps']:g} frames per "
-              f"second offered for {settings['seconds']} s\n")
+        print_settings(result["settings"])
         print_lines(result)
         print_accounts(result)
     print_together(results)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the tests of a script in unittest and writes what JUnit would, skips and their reasons too."""
+"""Runs the tests of a script in unittest, and writes what JUnit would: reasons of skips as well."""
 
 import os
 import pathlib
@@ -52,6 +52,9 @@ def main(test_case):
     """Runs all tests of the class; the only argument is the file for the results."""
     suite = unittest.defaultTestLoader.loadTestsFromTestCase(test_case)
     result = unittest.TextTestRunner(resultclass=_Result, verbosity=2).run(suite)
+    for outcome in ("tests", "failures", "errors", "skipped"):
+        count = result.testsRun if outcome == "tests" else len(getattr(result, outcome))
+        result.suite.set(outcome, str(count))
     if len(sys.argv) > 1:
         os.makedirs(os.path.dirname(sys.argv[1]), exist_ok=True)
         ElementTree.ElementTree(result.suite).write(sys.argv[1])

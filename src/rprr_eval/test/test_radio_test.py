@@ -40,7 +40,7 @@ class RadioTest(unittest.TestCase):
                                 stderr=subprocess.STDOUT, text=True)
 
     def test_every_byte_on_the_radio_is_accounted_for(self):
-        process = self.start("--seconds", "6", "--fps", "2", "--json", str(self.folder / "out"))
+        process = self.start("--seconds", "5", "--fps", "2", "--json", str(self.folder / "out"))
         said, _ = process.communicate()
         self.assertEqual(process.returncode, 0, said)
         run, = json.loads((self.folder / "out").read_text(encoding="utf-8"))["runs"]
@@ -48,24 +48,22 @@ class RadioTest(unittest.TestCase):
         self.assertGreater(run["quality"]["psnr"], 25.0, said)
         counted = run["bytes"]
         self.assertTrue(run["agree"], said)
-        # Frames that were under way at the end, or of exchanges that a busy machine lost, are on the
-        # radio but in no account; nothing is in an account that was not on the radio.
+        # What an exchange cost that a busy machine lost is on the radio but in no account; nothing
+        # is in an account that was not on the radio.
         self.assertLessEqual(counted["accounted"], counted["messages"], said)
         self.assertGreater(counted["accounted"], 0.8 * counted["messages"], said)
         self.assertLess(counted["rprr_wire"], 1.15 * counted["messages"], said)
         self.assertLess(counted["ros_wire"], 1000 * run["seconds"], said)
+        self.check_topics(run, said)
 
-    def test_no_image_and_no_log_of_routine_crosses(self):
-        process = self.start("--seconds", "2", "--fps", "1", "--json", str(self.folder / "out"))
-        said, _ = process.communicate()
-        self.assertIn(process.returncode, (0, 1), said)
-        run, = json.loads((self.folder / "out").read_text(encoding="utf-8"))["runs"]
+    def check_topics(self, run, said):
+        """No image crosses, nor anything else that is not meant to."""
         topics = {line["name"] for line in run["lines"] + run["start"]["lines"]
                   if line["name"].startswith("/")}
-        own = {f"/{robot}/rprr/{name}" for robot in ("eyebug_a", "eyebug_b")
-               for name in ("preview", "samples", "update", "relative_pose", "prediction",
-                            "encoded")}
-        self.assertLessEqual(topics, own | {"/station/receipts", "/rosout"}, said)
+        meant = {f"/{robot}/rprr/{name}" for robot in ("eyebug_a", "eyebug_b")
+                 for name in ("preview", "samples", "update", "relative_pose", "prediction",
+                              "encoded")}
+        self.assertLessEqual(topics, meant | {"/station/receipts", "/rosout"}, said)
 
     def test_an_interrupted_run_leaves_nothing(self):
         before = spaces()
