@@ -19,5 +19,6 @@ void add_belief_command(CLI::App& app, int& exit_code);
 void add_consistency_command(CLI::App& app, int& exit_code);
 void add_timing_command(CLI::App& app, int& exit_code);
 void add_methods_command(CLI::App& app, int& exit_code);
+void add_images_command(CLI::App& app, int& exit_code);
 
 }  // namespace rprr

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   rprr::add_consistency_command(app, exit_code);
   rprr::add_timing_command(app, exit_code);
   rprr::add_methods_command(app, exit_code);
+  rprr::add_images_command(app, exit_code);
   CLI11_PARSE(app, argc, argv);
   return exit_code;
 }

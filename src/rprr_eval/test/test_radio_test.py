@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/radio_test: robots and station on three hosts, all bytes of the radio explained."""
+
+import json
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import script_test
+
+RADIO_TEST = str(script_test.SCRIPTS / "radio_test")
+
+
+def spaces():
+    listed = subprocess.run(["ip", "netns", "list"], stdout=subprocess.PIPE, check=True, text=True)
+    return {line.split()[0] for line in listed.stdout.splitlines() if "rprr_radio_" in line}
+
+
+class RadioTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        why_not = subprocess.run([RADIO_TEST, "--why-not"], stdout=subprocess.PIPE, check=False,
+                                 text=True)
+        if why_not.returncode != 0:
+            raise unittest.SkipTest("no radio can be made: " + why_not.stdout.strip())
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="rprr_radio_test_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        subprocess.run(["rosrun", "rprr_sensor", "synthetic_to_folder", str(cls.folder / "room"),
+                        "--frames", "6"], stdout=subprocess.DEVNULL, check=True)
+
+    def start(self, *options):
+        return subprocess.Popen([RADIO_TEST, "--output", str(self.folder / "run"),
+                                 "--folder", str(self.folder / "room"), *options],
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+
+    def test_every_byte_on_the_radio_is_accounted_for(self):
+        process = self.start("--seconds", "5", "--fps", "2", "--json", str(self.folder / "out"))
+        said, _ = process.communicate()
+        self.assertEqual(process.returncode, 0, said)
+        run, = json.loads((self.folder / "out").read_text(encoding="utf-8"))["runs"]
+        self.assertGreater(run["frames"]["b"]["rebuilt"], 2, said)
+        self.assertGreater(run["quality"]["psnr"], 25.0, said)
+        counted = run["bytes"]
+        self.assertTrue(run["agree"], said)
+        # What an exchange cost that a busy machine lost is on the radio but in no account; nothing
+        # is in an account that was not on the radio.
+        self.assertLessEqual(counted["accounted"], counted["messages"], said)
+        self.assertGreater(counted["accounted"], 0.8 * counted["messages"], said)
+        self.assertLess(counted["rprr_wire"], 1.15 * counted["messages"], said)
+        self.assertLess(counted["ros_wire"], 1000 * run["seconds"], said)
+        self.check_topics(run, said)
+
+    def check_topics(self, run, said):
+        """No image crosses, nor anything else that is not meant to."""
+        topics = {line["name"] for line in run["lines"] + run["start"]["lines"]
+                  if line["name"].startswith("/")}
+        meant = {f"/{robot}/rprr/{name}" for robot in ("eyebug_a", "eyebug_b")
+                 for name in ("preview", "samples", "update", "relative_pose", "prediction",
+                              "encoded")}
+        self.assertLessEqual(topics, meant | {"/station/receipts", "/rosout"}, said)
+
+    def test_an_interrupted_run_leaves_nothing(self):
+        before = spaces()
+        process = self.start("--seconds", "60")
+        end = time.monotonic() + 60
+        while spaces() == before and process.poll() is None and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertNotEqual(spaces(), before, "it made no namespaces")
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        said, _ = process.communicate()
+        self.assertEqual(process.returncode, 130, said)
+        self.assertLessEqual(spaces(), before, said)
+
+    def test_nonsense_is_refused(self):
+        for options in (("--rate-kbit", "much"), ("--master", "c"), ("--folder", "/nowhere"),
+                        ("--bandwidth", "-1"), ("--what",)):
+            process = self.start(*options)
+            said, _ = process.communicate()
+            self.assertEqual(process.returncode, 1, said)
+            self.assertIn("error: ", said)
+
+
+if __name__ == "__main__":
+    script_test.main(RadioTest)
