@@ -2,6 +2,7 @@
 #include "rprr_codec/send_queue.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "rprr_codec/encoded_frame.hpp"
@@ -16,8 +17,15 @@ constexpr std::size_t kFramesKept = 2;    // whole ones, to be repeated
 constexpr std::size_t kLeastChunk = 512;  // bytes: below, headers would weigh too much
 constexpr std::size_t kMostChunk = 8192;
 constexpr double kSmoothing = 0.3;
+constexpr std::size_t kAwaitedKept = 16;
+constexpr Duration kLongestPatience = from_seconds(20.0);
+constexpr Duration kForgotten = from_seconds(60.0);  // a receipt that comes later tells nothing
 // Bytes of the serialised message around its data, and TCPROS's length.
 constexpr std::size_t kAround = encoded_message_bytes(0, 0) + 4;
+
+void smooth(double sample, double& value) {
+  value = value > 0.0 ? value + kSmoothing * (sample - value) : sample;
+}
 
 bool contains(const std::vector<Stamp>& stamps, Stamp stamp) {
   return std::find(stamps.begin(), stamps.end(), stamp) != stamps.end();
@@ -49,7 +57,7 @@ std::vector<Stamp> SendQueue::offer(QueuedFrame frame, Stamp now) {
     dropped.push_back(entry->frame.stamp);
     queue_.erase(entry);
   };
-  if (limited()) {
+  if (is_narrow()) {
     const auto older = std::find_if(queue_.begin(), queue_.end(), [&](const Entry& entry) {
       return entry.frame.sparse == frame.sparse;
     });
@@ -57,8 +65,12 @@ std::vector<Stamp> SendQueue::offer(QueuedFrame frame, Stamp now) {
   } else if (queue_.size() >= options_.waiting) {
     drop(queue_.begin());
   }
-  if (frame.sparse && held_.size() < kRobotsHeld) held_[frame.reference];
-  queue_.push_back({std::move(frame), now + options_.receipt_timeout});
+  if (frame.sparse) {
+    if (held_.size() < kRobotsHeld) held_[frame.reference];
+    awaited_.push_back({frame.reference_stamp, now});
+    if (awaited_.size() > kAwaitedKept) awaited_.pop_front();
+  }
+  queue_.push_back({std::move(frame), now});
   return dropped;
 }
 
@@ -76,19 +88,60 @@ void SendQueue::receipt(const std::string& robot, const std::vector<Stamp>& held
   if (known == held_.end()) return;
   const std::size_t count = std::min(held.size(), kStampsHeld);
   known->second.assign(held.end() - static_cast<std::ptrdiff_t>(count), held.end());
-  if (robot != options_.robot) return;
-  acknowledge(last, known->second);
+  if (robot != options_.robot) return learn_wait(known->second, now);
+  acknowledge(last, known->second, now);
   for (std::size_t i = 0; i < std::min(repeat_stamps.size(), kFramesKept); ++i) {
     repeat(repeat_stamps[i], now);
   }
 }
 
 // TCPROS keeps the order of messages, so what came before the last one is there or lost.
-void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held) {
+void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp now) {
   const auto newest = std::find_if(in_flight_.rbegin(), in_flight_.rend(), [&](const Sent& sent) {
     return sent.stamp == last || (sent.whole && contains(held, sent.stamp));
   });
+  if (newest == in_flight_.rend()) return;
+  learn(*newest, now);
   in_flight_.erase(in_flight_.begin(), newest.base());
+}
+
+void SendQueue::learn(const Sent& sent, Stamp now) {
+  const double seconds = std::max(to_seconds(now - sent.at), 1e-3);
+  smooth(seconds, receipt_seconds_);
+  if (sent.whole) smooth(std::max(to_seconds(now - sent.begun), 1e-3), whole_seconds_);
+  if (sent.alone) smooth(static_cast<double>(sent.bytes) / seconds, delivery_rate_);
+}
+
+// How long receipts of references take, also of those that came too late.
+void SendQueue::learn_wait(const std::vector<Stamp>& held, Stamp now) {
+  for (auto reference = awaited_.begin(); reference != awaited_.end();) {
+    const bool came = contains(held, reference->stamp);
+    if (came) smooth(std::max(to_seconds(now - reference->since), 1e-3), reference_seconds_);
+    const bool gone = came || now - reference->since > kForgotten;
+    reference = gone ? awaited_.erase(reference) : std::next(reference);
+  }
+}
+
+Duration SendQueue::reference_patience() const {
+  return std::clamp(from_seconds(2.5 * reference_seconds_), options_.receipt_timeout,
+                    std::max(kLongestPatience, options_.receipt_timeout));
+}
+
+Duration SendQueue::lost_after() const {
+  return std::clamp(from_seconds(2.5 * receipt_seconds_), options_.lost_after,
+                    std::max(kLongestPatience, options_.lost_after));
+}
+
+// Also while a station that did send receipts is silent: the radio may be down, and what is handed
+// over then comes out late and all at once.
+bool SendQueue::window_is_full(Stamp now) const {
+  if (options_.in_flight == 0 || options_.receipt_timeout == 0 || !last_receipt_) return false;
+  const Duration lost = lost_after();
+  const auto under_way = std::count_if(in_flight_.begin(), in_flight_.end(),
+                                       [&](const Sent& sent) { return now - sent.at <= lost; });
+  const std::size_t window =
+      receipt_seconds_ > kSlow || !hears_receipts(now) ? 1 : options_.in_flight;
+  return static_cast<std::size_t>(under_way) >= window;
 }
 
 void SendQueue::repeat(Stamp stamp, Stamp now) {
@@ -120,17 +173,17 @@ bool SendQueue::is_held(const std::string& robot, Stamp stamp) const {
 bool SendQueue::may_go(const Entry& entry, Stamp now) const {
   const QueuedFrame& frame = entry.frame;
   return !frame.sparse || !hears_receipts(now) || is_held(frame.reference, frame.reference_stamp) ||
-         now >= entry.deadline;
+         now - entry.offered >= reference_patience();
 }
 
 std::optional<EncodeOrder> SendQueue::next_to_encode(Stamp now) {
-  if (encoding_ || (limited() && !outgoing_.empty())) return {};
+  if (encoding_ || (limited() && !outgoing_.empty()) || window_is_full(now)) return {};
   const auto eligible = [&](const Entry& entry) { return may_go(entry, now); };
   auto next = std::find_if(queue_.begin(), queue_.end(), eligible);
   if (next == queue_.end()) return {};
   // Neither kind keeps the other from the radio.
   const auto other = std::find_if(std::next(next), queue_.end(), eligible);
-  if (limited() && other != queue_.end() && next->frame.sparse == last_was_sparse_) next = other;
+  if (is_narrow() && other != queue_.end() && next->frame.sparse == last_was_sparse_) next = other;
   EncodeOrder order;
   order.as_whole = next->frame.sparse && hears_receipts(now) &&
                    !is_held(next->frame.reference, next->frame.reference_stamp);
@@ -146,12 +199,12 @@ std::optional<EncodeOrder> SendQueue::next_to_encode(Stamp now) {
 std::size_t SendQueue::frame_limit() {
   control_per_frame_ += kSmoothing * (static_cast<double>(control_) - control_per_frame_);
   control_ = 0;
-  if (!limited() || !(options_.frame_rate > 0.0)) return 0;
-  const double period = 1.0 / options_.frame_rate;
-  const double chunks = rate_.steady_rate() * period / static_cast<double>(chunk_size()) + 1.0;
+  const double rate = limited() ? rate_.steady_rate() : is_narrow() ? delivery_rate_ : 0.0;
+  if (!(options_.frame_rate > 0.0) || !(rate > 0.0)) return 0;
+  const double bytes = rate / options_.frame_rate;
+  const double chunks = limited() ? bytes / static_cast<double>(chunk_size()) + 1.0 : 1.0;
   const double around = chunks * static_cast<double>(kAround + kChunkBytes);
-  return static_cast<std::size_t>(
-      std::max(1.0, rate_.steady_rate() * period - control_per_frame_ - around));
+  return static_cast<std::size_t>(std::max(1.0, bytes - control_per_frame_ - around));
 }
 
 std::size_t SendQueue::chunk_size() const {
@@ -159,7 +212,7 @@ std::size_t SendQueue::chunk_size() const {
   return std::clamp(static_cast<std::size_t>(0.1 * options_.bandwidth), kLeastChunk, kMostChunk);
 }
 
-void SendQueue::encoded(const EncodeOrder& order, Bytes data) {
+void SendQueue::encoded(const EncodeOrder& order, Bytes data, Stamp now) {
   encoding_ = false;
   const QueuedFrame& frame = order.frame;
   Message message;
@@ -168,6 +221,7 @@ void SendQueue::encoded(const EncodeOrder& order, Bytes data) {
   message.exchange = frame.exchange;
   message.data = std::move(data);
   message.number = next_number_++;
+  message.begun = now;
   message.whole = !frame.sparse || order.as_whole;
   if (message.whole) {
     kept_.push_back({message, {}});
@@ -184,12 +238,13 @@ std::optional<SendOrder> SendQueue::next_to_send(Stamp now) {
   const std::size_t count = (message.data.size() + most - 1) / most;
   if (!limited() || count > kMostChunks) {
     order.data = std::move(message.data);
-    sent_all(now);
+    sent_all(order.data.size(), now);
     return order;
   }
   if (message.next > 0) order.frame_id.clear();
   const ByteView rest = ByteView(message.data).from(message.next * most);
   const ByteView piece = rest.first(std::min(rest.size, most));
+  const std::size_t frame_bytes = message.data.size();
   const std::size_t bytes =
       kAround + order.frame_id.size() + piece.size + (count > 1 ? kChunkBytes : 0);
   if (now < rate_.room_at(bytes, now)) return {};
@@ -200,14 +255,18 @@ std::optional<SendOrder> SendQueue::next_to_send(Stamp now) {
     order.data = serialise(FrameChunk{message.number, static_cast<std::uint16_t>(message.next),
                                       static_cast<std::uint16_t>(count), piece});
   }
-  if (++message.next == count) sent_all(now);
+  if (++message.next == count) sent_all(frame_bytes, now);
   return order;
 }
 
-void SendQueue::sent_all(Stamp now) {
+void SendQueue::sent_all(std::size_t bytes, Stamp now) {
   const Message& message = outgoing_.front();
   if (!message.repeated) {
-    in_flight_.push_back({message.stamp, now, message.whole});
+    in_flight_.push_back(
+        {message.stamp, message.begun, now, bytes, message.whole, in_flight_.empty()});
+    if (!last_receipt_ && message.whole) {
+      smooth(std::max(to_seconds(now - message.begun), 1e-3), whole_seconds_);
+    }
     if (in_flight_.size() > kStampsHeld) in_flight_.pop_front();
     if (message.whole) own_sent_.push_back(message.stamp);
     if (own_sent_.size() > kFramesKept) own_sent_.pop_front();
@@ -229,24 +288,13 @@ double SendQueue::backlog(Stamp now) {
   return debt + static_cast<double>(bytes_left()) / rate_.steady_rate();
 }
 
-void SendQueue::forget_lost(Stamp now) {
-  while (!in_flight_.empty() && now - in_flight_.front().at > options_.lost_after) {
-    in_flight_.pop_front();
-  }
-}
-
 RadioRoom SendQueue::room(Stamp now) {
-  forget_lost(now);
   RadioRoom room;
-  const bool receipts = hears_receipts(now);
-  if (limited()) {
-    room.ready = queue_.empty() && outgoing_.empty() && !encoding_ &&
-                 now >= rate_.room_at(longest_control_, now);
-  }
-  if (receipts && options_.in_flight > 0 && in_flight_.size() >= options_.in_flight) {
-    room.ready = false;
-  }
-  if (receipts) {
+  room.frame_seconds = whole_seconds_;
+  if (is_narrow()) room.ready = queue_.empty() && outgoing_.empty() && !encoding_;
+  if (limited() && now < rate_.room_at(longest_control_, now)) room.ready = false;
+  if (window_is_full(now)) room.ready = false;
+  if (hears_receipts(now)) {
     room.references = held_.at(options_.robot);
   } else {
     room.references.assign(own_sent_.begin(), own_sent_.end());

@@ -72,7 +72,11 @@ class EncoderNodelet : public nodelet::Nodelet {
       return;
     }
     const std::string prefix = "/" + robot_ + "/rprr/";
-    publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16);
+    const auto joined = [this](const ros::SingleSubscriberPublisher&) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      queue_->listener_joined();
+    };
+    publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16, joined);
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
     timer_ = nh.createWallTimer(ros::WallDuration(0.01), &EncoderNodelet::on_timer, this);
@@ -147,13 +151,15 @@ class EncoderNodelet : public nodelet::Nodelet {
     frame.reference_stamp = to_stamp(message->reference_stamp);
     frame.content = std::shared_ptr<const void>(message.get(), [message](const void*) {});
     std::size_t dropped = 0;
+    bool narrow = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       dropped = queue_->offer(std::move(frame), steady_now()).size();
+      narrow = queue_->is_narrow();
     }
     if (dropped > 0) {
       health_->count("frames that gave way to newer ones", dropped);
-      if (!config_ || config_->bandwidth == 0.0) {
+      if (!narrow) {
         health_->warn("dropped", "encoding is slower than /" + robot_ +
                                      "/rprr/outgoing, or the station's receipts are slow: the "
                                      "oldest waiting frame was dropped; lower the frame rate, or "
@@ -230,7 +236,7 @@ class EncoderNodelet : public nodelet::Nodelet {
     Bytes data = serialise(images->frame, &sizes);
     report(images->frame, sizes);
     const std::lock_guard<std::mutex> lock(mutex_);
-    queue_->encoded(order, std::move(data));
+    queue_->encoded(order, std::move(data), steady_now());
   }
 
   void make_whole(const EncodeOrder& order, EncodedFrame& frame) {
@@ -269,6 +275,7 @@ class EncoderNodelet : public nodelet::Nodelet {
     rprr_msgs::RadioState state;
     state.ready = room.ready ? 1 : 0;
     for (const Stamp stamp : room.references) state.references.push_back(to_time(stamp));
+    state.frame_seconds = static_cast<float>(room.frame_seconds);
     state.backlog = static_cast<float>(backlog);
     state_.publish(state);
     health_->show("seconds of backlog", std::to_string(backlog));

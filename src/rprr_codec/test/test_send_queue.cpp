@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,7 +46,7 @@ std::vector<SendOrder> pump(SendQueue& queue, Stamp now, std::size_t bytes = 100
   std::vector<SendOrder> sent;
   for (;;) {
     if (const auto order = queue.next_to_encode(now)) {
-      queue.encoded(*order, Bytes(bytes, order->as_whole ? 2 : 1));
+      queue.encoded(*order, Bytes(bytes, order->as_whole ? 2 : 1), now);
     }
     auto message = queue.next_to_send(now);
     if (!message) return sent;
@@ -114,7 +116,7 @@ TEST(SendQueue, ALimitedFrameComesInChunksThatMakeItAgain) {
   ASSERT_TRUE(order);
   Bytes data(9001);
   for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i * 7);
-  queue.encoded(*order, data);
+  queue.encoded(*order, data, kStart);
   FrameAssembler assembler;
   std::optional<FrameAssembler::Frame> frame;
   for (Stamp now = kStart; now < kStart + from_seconds(2.0) && !frame; now += kMillisecond) {
@@ -161,7 +163,7 @@ TEST(SendQueue, WholeAndSparseFramesTakeTurns) {
     ++stamp;
     if (const auto order = queue.next_to_encode(now)) {
       encoded.push_back(order->frame.stamp);
-      queue.encoded(*order, Bytes(4000));
+      queue.encoded(*order, Bytes(4000), now);
     }
     while (queue.next_to_send(now)) {
     }
@@ -184,7 +186,7 @@ TEST(SendQueue, TheLimitOfAFrameLeavesRoomForTheExchange) {
     const auto order = queue.next_to_encode(now + from_seconds(1.0));
     ASSERT_TRUE(order);
     limit = order->limit;
-    queue.encoded(*order, Bytes(1000));
+    queue.encoded(*order, Bytes(1000), now);
     while (queue.next_to_send(now + from_seconds(1.0))) {
     }
   }
@@ -267,6 +269,95 @@ TEST(SendQueue, LostFramesDoNotBlockTheRadioForGood) {
   const Stamp later = kStart + from_seconds(4.5);
   queue.receipt("b", {}, {}, 0, later - kMillisecond);
   EXPECT_TRUE(queue.room(later).ready);
+}
+
+TEST(SendQueue, ANewListenerIsNotWaitedForInVain) {
+  SendQueue queue(options_of(0.0));
+  queue.receipt("b", {}, {}, 0, kStart);
+  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
+  pump(queue, kStart);
+  EXPECT_FALSE(queue.room(kStart).ready);
+  queue.listener_joined();
+  EXPECT_TRUE(queue.room(kStart).ready);
+}
+
+// A radio of so many bytes a second, whose receipts come as soon as a frame is through.
+struct SlowRadio {
+  double bytes_per_second;
+  std::deque<std::pair<Stamp, Stamp>> arrivals;  // stamp of a frame, and when it is through
+  Stamp free_at = 0;
+  std::size_t most_under_way = 0;
+
+  void take(const SendOrder& order, Stamp now) {
+    free_at = std::max(free_at, now) +
+              from_seconds(static_cast<double>(order.data.size()) / bytes_per_second);
+    arrivals.emplace_back(order.stamp, free_at);
+    most_under_way = std::max(most_under_way, arrivals.size());
+  }
+  void deliver(SendQueue& queue, Stamp now) {
+    while (!arrivals.empty() && arrivals.front().second <= now) {
+      queue.receipt("b", {arrivals.front().first}, {}, arrivals.front().first, now);
+      arrivals.pop_front();
+    }
+  }
+};
+
+TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
+  SendQueue queue(options_of(0.0));
+  queue.receipt("b", {}, {}, 0, kStart);
+  SlowRadio radio{20000.0, {}, 0, 0};
+  Stamp stamp = 1;
+  Stamp late = 0;
+  int delivered = 0;
+  for (Stamp now = kStart; now < kStart + from_seconds(60.0); now += 10 * kMillisecond) {
+    radio.deliver(queue, now);
+    if (queue.room(now).ready) queue.offer(whole(stamp++), now);
+    while (const auto order = queue.next_to_encode(now)) {
+      const std::size_t least = 8000;  // depth
+      const std::size_t usual = 40000;
+      const std::size_t bytes = order->limit > 0 ? std::clamp(order->limit, least, usual) : usual;
+      queue.encoded(*order, Bytes(bytes), now);
+      while (const auto message = queue.next_to_send(now)) radio.take(*message, now);
+      ++delivered;
+      if (now > kStart + from_seconds(20.0)) late = std::max(late, radio.free_at - now);
+    }
+    if (now == kStart + from_seconds(20.0)) radio.most_under_way = 0;
+  }
+  EXPECT_LE(radio.most_under_way, 1u) << "nothing queues up in the radio";
+  EXPECT_LT(to_seconds(late), 0.7) << "frames got coarser";
+  EXPECT_GT(delivered, 80) << "for about the frame rate that is wished";
+}
+
+TEST(SendQueue, WhileTheRadioIsDownNextToNothingIsHandedOver) {
+  SendQueue queue(options_of(0.0));
+  queue.receipt("b", {}, {}, 0, kStart);
+  std::size_t sent = 0;
+  Stamp stamp = 1;
+  for (Stamp now = kStart; now < kStart + from_seconds(20.0); now += 100 * kMillisecond) {
+    queue.offer(whole(stamp++), now);
+    sent += pump(queue, now).size();
+  }
+  EXPECT_LE(sent, 9u);
+  EXPECT_GE(sent, 4u) << "somebody may listen again";
+}
+
+TEST(SendQueue, LearnsHowLongReceiptsOfReferencesTake) {
+  SendQueue queue(options_of(0.0));
+  Stamp now = kStart;
+  int whole_frames = 0;
+  for (Stamp stamp = 1; stamp <= 5; ++stamp) {  // each reference takes four seconds
+    queue.receipt("a", {stamp - 1}, {}, stamp - 1, now);
+    queue.offer(sparse(100 + stamp, stamp), now);
+    for (int i = 0; i < 40; ++i) {
+      now += from_seconds(0.1);
+      if (i % 10 == 0) queue.receipt("a", {stamp - 1}, {}, stamp - 1, now);
+      for (const SendOrder& order : pump(queue, now)) {
+        whole_frames += order.data[0] == 2 ? 1 : 0;
+        queue.receipt("b", {}, {}, order.stamp, now);
+      }
+    }
+  }
+  EXPECT_EQ(whole_frames, 1) << "the first, before this was known";
 }
 
 TEST(SendQueue, WithoutReceiptsWhatWasSentCanBeReferredTo) {

@@ -12,6 +12,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kSentKept = 8;               // frames, as references for later
+constexpr double kSlowFrame = 0.75;                // seconds to the station
 constexpr Duration kPatience = from_seconds(0.1);  // with a frame that is about to arrive
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
 
@@ -46,19 +47,21 @@ class PreviewReference final : public ExchangeRole {
 
  private:
   void answer(const PreviewMessage& message, Stamp now, RoleOutput& out) {
-    if (const PoseFramePtr frame = choose(message.stamp, now)) {
-      return answer(message, frame, now, out);
-    }
+    const PoseFramePtr frame = choose(message.stamp);
+    // What the station holds already serves at once. Meanwhile a new one is on its way.
+    const PoseFramePtr held = is_slow() ? last_sent(now) : nullptr;
+    if (held && frame && radio_.ready) send_whole(frame, message.exchange, now, out);
+    if (held || frame) return answer(message, held ? held : frame, now, out);
     early_ = message;  // its frame may be about to arrive
     early_deadline_ =
         now + (options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout});
   }
 
+  // A frame that is sent now would be there late.
+  bool is_slow() const { return !radio_.ready || radio_.frame_seconds > kSlowFrame; }
+
   // Null: none yet.
-  PoseFramePtr choose(Stamp stamp, Stamp now) {
-    if (!radio_.ready) {
-      if (const PoseFramePtr sent = last_sent(now)) return sent;
-    }
+  PoseFramePtr choose(Stamp stamp) const {
     const PoseFramePtr near = frames_.nearest(stamp);
     const PoseFramePtr newest = frames_.newest();
     // The scene stands still, so a frame of another time is better than none.

@@ -122,6 +122,7 @@ void ExchangeNode::on_message(const std::string& peer,
 void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
   RadioState radio;
   radio.ready = message->ready != 0;
+  radio.frame_seconds = static_cast<double>(message->frame_seconds);
   for (const ros::Time& stamp : message->references) radio.references.push_back(to_stamp(stamp));
   worker_->post([this, radio] {
     radio_told_ = steady_now();

@@ -121,13 +121,13 @@ TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
 }
 
 TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) {
-  dependent->set_radio({false, {}}, 0, at_b);
+  dependent->set_radio({false, {}, 0.0}, 0, at_b);
   for (Stamp stamp = 1000; stamp < 1003; ++stamp) dependent->offer(frame_b(stamp), stamp, at_b);
   EXPECT_TRUE(at_b.send.empty());
-  dependent->set_radio({true, {}}, 1010, at_b);
+  dependent->set_radio({true, {}, 0.0}, 1010, at_b);
   ASSERT_EQ(at_b.send.size(), 1u);
   EXPECT_EQ(std::get<PreviewMessage>(at_b.send[0]).stamp, 1002);
-  dependent->set_radio({true, {}}, 1011, at_b);
+  dependent->set_radio({true, {}, 0.0}, 1011, at_b);
   EXPECT_EQ(at_b.send.size(), 1u) << "one exchange at a time";
 }
 
@@ -145,7 +145,7 @@ class BusyReference : public PreviewProtocol {
 };
 
 TEST_F(BusyReference, RefersToWhatTheStationHolds) {
-  reference->set_radio({false, {1000}}, now, at_a);
+  reference->set_radio({false, {1000}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().status, PoseStatus::kAccepted);
   EXPECT_EQ(pose().stamp, 1000);
@@ -157,13 +157,22 @@ TEST_F(BusyReference, RefersToWhatTheStationHolds) {
 }
 
 TEST_F(BusyReference, OrToTheLastThatWasSent) {
-  reference->set_radio({false, {}}, now, at_a);
+  reference->set_radio({false, {}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 2000);
 }
 
+TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
+  reference->set_radio({true, {1000, 2000}, 3.0}, now, at_a);
+  exchange(3000);
+  EXPECT_EQ(pose().stamp, 2000) << "the station holds it";
+  ASSERT_EQ(at_a.decisions.size(), 2u);
+  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kSendWhole);
+  EXPECT_EQ(at_a.decisions[0].frame->stamp, 3000);
+}
+
 TEST_F(BusyReference, ButNotToAnOldOne) {
-  reference->set_radio({false, {1000}}, now, at_a);
+  reference->set_radio({false, {1000}, 0.0}, now, at_a);
   now = kAge + 1;
   exchange(3000);
   EXPECT_EQ(pose().stamp, 3000);
@@ -171,7 +180,7 @@ TEST_F(BusyReference, ButNotToAnOldOne) {
 }
 
 TEST_F(BusyReference, WithRoomItSendsANewOne) {
-  reference->set_radio({true, {1000, 2000}}, now, at_a);
+  reference->set_radio({true, {1000, 2000}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 3000);
 }

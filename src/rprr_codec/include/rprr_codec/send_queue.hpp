@@ -23,15 +23,16 @@ struct SendQueueOptions {
   std::string robot;          // this one
   double bandwidth = 0.0;     // bytes a second on this robot's radio, all messages; 0: no limit;
                               // else at least kLeastBandwidth
-  double frame_rate = 2.0;    // with a bandwidth: frames a second for which colours are coarsened
+  double frame_rate = 2.0;    // frames a second for which colours are coarsened, if need be
   std::size_t waiting = 5;    // frames that wait to be encoded
   std::size_t in_flight = 3;  // frames that the station has not acknowledged; 0: any number
-  /// A sparse frame waits so long for the receipt of its reference, then goes out whole. 0: the
-  /// station's receipts are not waited for.
+  /// A sparse frame waits so long for the receipt of its reference, or longer where receipts were
+  /// seen to take longer, then goes out whole. 0: the station's receipts are not waited for.
   Duration receipt_timeout = from_seconds(2.0);
   /// Without any receipt for so long, the station is taken to send none.
   Duration receipts_silence = from_seconds(3.0);
-  Duration lost_after = from_seconds(4.0);     // a frame without receipt is not on its way any more
+  /// A frame without receipt for so long, or longer likewise, is not on its way any more.
+  Duration lost_after = from_seconds(4.0);
   Duration repeat_period = from_seconds(1.0);  // a frame is not repeated more often
 };
 
@@ -66,6 +67,7 @@ struct RadioRoom {
   bool ready = true;              // a frame more can be sent; if not, begin nothing
   std::vector<Stamp> references;  // own whole frames that the station holds, oldest first; where
                                   // it sends no receipts, those sent
+  double frame_seconds = 0.0;     // that a whole frame takes to the station; 0: not known yet
 };
 
 /// Orders what one robot sends of its frames: a byte budget, the newest frame first, pieces at an
@@ -73,9 +75,10 @@ struct RadioRoom {
 /// without a clock or threads of its own; `now` is any steady time in nanoseconds. Memory is
 /// bounded whatever receipts say: they come over the radio and are untrusted.
 ///
-/// With a bandwidth a frame waits until what was sent before it is on the air: of each kind (whole,
-/// sparse) only the newest waits, and it is encoded as late as possible. Messages of the exchange
-/// are never held back: they are counted (spent) and frames make room for them.
+/// On a narrow radio (with a bandwidth, or where receipts take long) a frame waits until what was
+/// sent before it is through: of each kind (whole, sparse) only the newest waits, and it is encoded
+/// as late as possible. Without a bandwidth the receipts tell how fast the radio is. Messages of
+/// the exchange are never held back: they are counted (spent) and frames make room for them.
 class SendQueue {
  public:
   explicit SendQueue(SendQueueOptions options);
@@ -91,9 +94,12 @@ class SendQueue {
   void receipt(const std::string& robot, const std::vector<Stamp>& held,
                const std::vector<Stamp>& repeat, Stamp last, Stamp now);
 
+  /// Somebody new listens: what was on its way to others will not be acknowledged.
+  void listener_joined() { in_flight_.clear(); }
+
   /// What to encode now, if anything: then encoded() or failed() must follow.
   std::optional<EncodeOrder> next_to_encode(Stamp now);
-  void encoded(const EncodeOrder& order, Bytes data);
+  void encoded(const EncodeOrder& order, Bytes data, Stamp now);
   void failed() { encoding_ = false; }
 
   /// What to send now, if anything; call until there is none.
@@ -103,12 +109,17 @@ class SendQueue {
   /// Seconds until everything that is encoded is sent.
   double backlog(Stamp now);
   std::size_t waiting() const { return queue_.size(); }
+  bool is_narrow() const { return limited() || receipt_seconds_ > kSlow; }
   std::size_t repeated() const { return repeated_; }  // frames, so far
 
  private:
   struct Entry {
     QueuedFrame frame;
-    Stamp deadline = 0;  // for the receipt of its reference
+    Stamp offered = 0;
+  };
+  struct Reference {  // that a sparse frame waits or waited for
+    Stamp stamp = 0;
+    Stamp since = 0;
   };
   struct Message {
     Stamp stamp = 0;
@@ -118,12 +129,16 @@ class SendQueue {
     std::uint16_t number = 0;
     bool whole = false;
     bool repeated = false;
+    Stamp begun = 0;
     std::size_t next = 0;  // chunk
   };
   struct Sent {
     Stamp stamp = 0;
-    Stamp at = 0;
+    Stamp begun = 0;
+    Stamp at = 0;  // when its last byte was handed over
+    std::size_t bytes = 0;
     bool whole = false;
+    bool alone = false;  // nothing else was on its way
   };
   struct Kept {
     Message message;
@@ -134,13 +149,19 @@ class SendQueue {
   bool hears_receipts(Stamp now) const;
   bool is_held(const std::string& robot, Stamp stamp) const;
   bool may_go(const Entry& entry, Stamp now) const;
+  bool window_is_full(Stamp now) const;
+  Duration lost_after() const;
+  Duration reference_patience() const;
   std::size_t frame_limit();
   std::size_t chunk_size() const;
   std::size_t bytes_left() const;
-  void sent_all(Stamp now);
-  void forget_lost(Stamp now);
-  void acknowledge(Stamp last, const std::vector<Stamp>& held);
+  void sent_all(std::size_t bytes, Stamp now);
+  void acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp now);
+  void learn(const Sent& sent, Stamp now);
+  void learn_wait(const std::vector<Stamp>& held, Stamp now);
   void repeat(Stamp stamp, Stamp now);
+
+  static constexpr double kSlow = 0.5;  // seconds for a receipt: more than one frame would wait
 
   SendQueueOptions options_;
   RateLimit rate_;
@@ -154,6 +175,11 @@ class SendQueue {
   std::deque<Stamp> own_sent_;                      // whole frames
   std::map<std::string, std::vector<Stamp>> held_;  // of this robot and its references
   std::optional<Stamp> last_receipt_;
+  std::deque<Reference> awaited_;   // oldest first
+  double receipt_seconds_ = 0.0;    // from handing a frame over to its receipt, smoothed
+  double whole_seconds_ = 0.0;      // from encoding a whole frame on, likewise
+  double delivery_rate_ = 0.0;      // bytes a second, likewise; 0: not known
+  double reference_seconds_ = 0.0;  // that receipts of references take, likewise
   double control_per_frame_ = 0.0;  // bytes of other messages between frames, smoothed
   std::size_t control_ = 0;         // since the last frame
   std::size_t longest_control_ = 0;

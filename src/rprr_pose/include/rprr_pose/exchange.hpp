@@ -38,7 +38,8 @@ struct RoleOutput {
 struct RadioState {
   bool ready = true;  // a frame more can be sent
   std::vector<Stamp>
-      references;  // own whole frames that the station holds or was sent, newest last
+      references;              // own whole frames that the station holds or was sent, newest last
+  double frame_seconds = 0.0;  // that a whole frame takes to the station; 0: not known
 };
 
 /// One robot's side of the exchanges with one peer: a pure state machine. Frames, messages and the
