@@ -21,8 +21,9 @@ constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or 
 constexpr std::array<float, kOctaves> kNoiseReduced{0.50f, 0.28f, 0.13f, 0.06f, 0.02f};
 constexpr std::array<float, kOctaves> kNoiseFull{0.24f, 0.29f, 0.25f, 0.12f, 0.06f};
 
-// Grey levels of noise below which no prediction improves a base of full size.
-constexpr float kFine = 2.5f;
+// Grey levels of noise below which a prediction does not improve a base of full size: the gain in
+// PSNR averages below 0 on a kitchen, a rendered room, an office and a household alike.
+constexpr float kFine = 4.5f;
 
 // Coding noise is no larger than so much of what an octave holds at its place: where there is
 // nothing, nothing was lost.
