@@ -64,8 +64,8 @@ class Fetcher {
       nearest[i] = (((y_steps + kHalf) >> kBits) * cols + ((x_steps + kHalf) >> kBits)) | -out;
       column[i] = std::min(x_steps >> kBits, last_column);
       row[i] = std::min(y_steps >> kBits, last_row);
-      across[i] = x_steps - (column[i] << kBits);
-      down[i] = y_steps - (row[i] << kBits);
+      across[i] = x_steps - column[i] * kOne;
+      down[i] = y_steps - row[i] * kOne;
     }
   }
 
