@@ -30,13 +30,8 @@ class Target {
     }
   }
 
-  // All pixels whose centre is within `half` of (x, y), which is in the image.
-  void cover(float x, float y, float half, float depth, int source) const {
-    const int left = static_cast<int>(x - half + 1.0f);
-    const int top = static_cast<int>(y - half + 1.0f);
-    int right = static_cast<int>(x + half);
-    int bottom = static_cast<int>(y + half);
-    if (left == right && top == bottom) return put(left, top, depth, source);
+  // All pixels from left to right and top to bottom, as far as they are in the image.
+  void cover(int left, int top, int right, int bottom, float depth, int source) const {
     right = std::min(right, width_ - 1);
     bottom = std::min(bottom, height_ - 1);
     for (int v = std::max(top, 0); v <= bottom; ++v) {
@@ -49,6 +44,16 @@ class Target {
   int* source_;
   int width_;
   int height_;
+};
+
+// Numbers of a stretch of a row.
+template <typename T>
+using Stretch = std::array<T, kStretch>;
+
+// Pixels that a stretch of a row covers, by their first and last columns and rows. Those of what is
+// not seen are empty: right is less than left.
+struct Covered {
+  Stretch<int> left, top, right, bottom;
 };
 
 // Pixels (plus a half, to be cut off) and depths in the target of a stretch of a row. Plain
@@ -70,6 +75,41 @@ void project(const PixelMap& to_target, const std::uint16_t* counts, int first, 
   }
 }
 
+// Pixels whose centres are within half a footprint of (x, y), which is in the image: x and y as
+// project() gives them. half_at_unit: half a footprint where source and target see a depth of one
+// count alike. Plain numbers, likewise.
+template <Footprint kFootprint>
+void find_covered(const std::uint16_t* __restrict counts, const float* __restrict x,
+                  const float* __restrict y, const float* __restrict depth, int count, float width,
+                  float height, float half_at_unit, Covered& covered) {
+  int* __restrict const left = covered.left.data();
+  int* __restrict const top = covered.top.data();
+  int* __restrict const right = covered.right.data();
+  int* __restrict const bottom = covered.bottom.data();
+  for (int i = 0; i < count; ++i) {
+    const int seen = static_cast<int>(counts[i] != 0) &
+                     static_cast<int>(depth[i] >= kNearestDepth) & static_cast<int>(x[i] >= 0.0f) &
+                     static_cast<int>(y[i] >= 0.0f) & static_cast<int>(x[i] < width) &
+                     static_cast<int>(y[i] < height);
+    // Changes only what is not seen: in this order what is not a number becomes 0.
+    const float u = std::min(std::max(0.0f, x[i]), width);
+    const float v = std::min(std::max(0.0f, y[i]), height);
+    if constexpr (kFootprint == Footprint::kNearest) {
+      left[i] = static_cast<int>(u);
+      top[i] = static_cast<int>(v);
+      right[i] = left[i] | (seen - 1);
+      bottom[i] = top[i];
+    } else {
+      const float wanted = half_at_unit * static_cast<float>(counts[i]) / depth[i];
+      const float half = std::min(std::max(0.5f * kOverlap, wanted), 0.5f * kLargestFootprint);
+      left[i] = static_cast<int>(u - 0.5f - half + 1.0f);
+      top[i] = static_cast<int>(v - 0.5f - half + 1.0f);
+      right[i] = static_cast<int>(u - 0.5f + half) | (seen - 1);
+      bottom[i] = static_cast<int>(v - 0.5f + half);
+    }
+  }
+}
+
 template <Footprint kFootprint>
 void warp(const DepthFrame& source, const Camera& from, const Camera& to, const Pose& motion,
           WarpedDepth& out) {
@@ -79,25 +119,25 @@ void warp(const DepthFrame& source, const Camera& from, const Camera& to, const 
   const auto half_at_equal_depth =
       static_cast<float>(0.5 * kOverlap * source.unit * std::max(to.fx / from.fx, to.fy / from.fy));
   const Target target(out, to.width, to.height);
-  std::array<float, kStretch> x, y, depth;
+  Stretch<float> x, y, depth;
+  Covered covered;
 
   for (int v = 0; v < source.height(); ++v) {
     const auto* counts = source.counts.ptr<std::uint16_t>(v);
     for (int begin = 0; begin < source.width(); begin += kStretch) {
       const int count = std::min(kStretch, source.width() - begin);
       project(to_target, counts + begin, begin, v, count, x.data(), y.data(), depth.data());
+      find_covered<kFootprint>(counts + begin, x.data(), y.data(), depth.data(), count, width,
+                               height, half_at_equal_depth, covered);
       const int index = v * source.width() + begin;
       for (int i = 0; i < count; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        if (counts[begin + i] == 0 || !(depth[at] >= kNearestDepth)) continue;
-        if (!(x[at] >= 0.0f && y[at] >= 0.0f && x[at] < width && y[at] < height)) continue;
-        if constexpr (kFootprint == Footprint::kNearest) {
-          target.put(static_cast<int>(x[at]), static_cast<int>(y[at]), depth[at], index + i);
-        } else {
-          const float half = half_at_equal_depth * static_cast<float>(counts[begin + i]);
-          target.cover(x[at] - 0.5f, y[at] - 0.5f,
-                       std::clamp(half / depth[at], 0.5f * kOverlap, 0.5f * kLargestFootprint),
-                       depth[at], index + i);
+        const int left = covered.left[at], right = covered.right[at];
+        const int top = covered.top[at], bottom = covered.bottom[at];
+        if (left == right && top == bottom) {
+          target.put(left, top, depth[at], index + i);
+        } else if (right >= 0) {
+          target.cover(left, top, right, bottom, depth[at], index + i);
         }
       }
     }

@@ -62,15 +62,19 @@ void spread(std::vector<cv::Mat>& levels) {
   }
 }
 
-// Places of the frame's columns or rows in the base: between which two pixels, and how far.
-void find_places(int count, int reduction, int base_count, std::vector<BasePlace>& places) {
+// Places of the frame's columns or rows in an image of so much smaller size.
+void find_places(int count, int reduction, int small_count, std::vector<SmallerPlace>& places) {
   places.resize(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const float at = place_of(i, 1.0f / static_cast<float>(reduction), base_count);
+    const float at = place_of(i, 1.0f / static_cast<float>(reduction), small_count);
     const int first = static_cast<int>(at);
-    places[static_cast<std::size_t>(i)] = {3 * first, 3 * std::min(first + 1, base_count - 1),
+    places[static_cast<std::size_t>(i)] = {first, std::min(first + 1, small_count - 1),
                                            at - static_cast<float>(first)};
   }
+}
+
+Float4 between(Float4 a, Float4 b, float share) {
+  return a + all4(share) * (b - a);
 }
 
 }  // namespace
@@ -83,18 +87,26 @@ void BaseFill::fill(const BaseImage& base, PredictedView& view) {
   measure_offsets(base, view);
   spread(offsets_);
   const cv::Mat& offsets = offsets_[0];
+  find_places(view.bgr.cols, kOffsetCell, offsets.cols, offset_columns_);
+  find_places(view.bgr.rows, kOffsetCell, offsets.rows, offset_rows_);
   for (int v = 0; v < view.bgr.rows; ++v) {
     auto* provenance = view.provenance.ptr<std::uint8_t>(v);
     if (std::memchr(provenance, kNothing, static_cast<std::size_t>(view.bgr.cols)) == nullptr) {
       continue;
     }
+    take_rows(base, v);
     auto* colours = view.bgr.ptr<std::uint8_t>(v);
-    const float y = place_of(v, 1.0f / kOffsetCell, offsets.rows);
+    const SmallerPlace& row = offset_rows_[static_cast<std::size_t>(v)];
+    const Float4* const upper = row4(offsets, row.first);
+    const Float4* const lower = row4(offsets, row.second);
     for (int u = 0; u < view.bgr.cols; ++u) {
       if (provenance[u] != kNothing) continue;
       provenance[u] = kBase;
-      const float x = place_of(u, 1.0f / kOffsetCell, offsets.cols);
-      store_bgr(sample_base(base, u, v) - sample4(offsets, x, y), colours + 3 * u);
+      const SmallerPlace& at = offset_columns_[static_cast<std::size_t>(u)];
+      const Float4 offset =
+          between(between(upper[at.first], upper[at.second], at.share),
+                  between(lower[at.first], lower[at.second], at.share), row.share);
+      store_bgr(sample_base(u) - offset, colours + 3 * u);
     }
   }
 }
@@ -107,28 +119,35 @@ void BaseFill::measure_offsets(const BaseImage& base, const PredictedView& view)
   offsets.setTo(0);
   constexpr int kEvery = 4;
   for (int v = kEvery / 2; v < view.bgr.rows; v += kEvery) {
+    take_rows(base, v);
     const auto* provenance = view.provenance.ptr<std::uint8_t>(v);
     const auto* colours = view.bgr.ptr<std::uint8_t>(v);
     Float4* const to = row4(offsets, v / kOffsetCell);
     for (int u = kEvery / 2; u < view.bgr.cols; u += kEvery) {
       if (provenance[u] == kNothing) continue;
-      Float4 offset = sample_base(base, u, v) - load_bgr(colours + 3 * u);
+      Float4 offset = sample_base(u) - load_bgr(colours + 3 * u);
       offset[3] = 1.0f;
       to[u / kOffsetCell] += offset;
     }
   }
 }
 
-Float4 BaseFill::sample_base(const BaseImage& base, int u, int v) const {
-  const BasePlace& row = rows_[static_cast<std::size_t>(v)];
-  const BasePlace& at = columns_[static_cast<std::size_t>(u)];
-  const auto across = [&](int line) {
-    const auto* pixels = base.bgr.ptr<std::uint8_t>(line / 3);
-    const Float4 near = load_bgr(pixels + at.first);
-    return near + all4(at.share) * (load_bgr(pixels + at.second) - near);
+// For sample_base: those rows of the base between which a row of the frame lies.
+void BaseFill::take_rows(const BaseImage& base, int v) {
+  const SmallerPlace& row = rows_[static_cast<std::size_t>(v)];
+  const int count = 3 * base.bgr.cols;
+  taken_.create(2, count + 1, CV_32FC1);
+  to_floats(base.bgr.ptr<std::uint8_t>(row.first), count, taken_.ptr<float>(0));
+  to_floats(base.bgr.ptr<std::uint8_t>(row.second), count, taken_.ptr<float>(1));
+  taken_share_ = row.share;
+}
+
+Float4 BaseFill::sample_base(int u) const {
+  const SmallerPlace& at = columns_[static_cast<std::size_t>(u)];
+  const auto across = [&](const float* row) {
+    return between(load_pixel(row, at.first), load_pixel(row, at.second), at.share);
   };
-  const Float4 above = across(row.first);
-  return above + all4(row.share) * (across(row.second) - above);
+  return between(across(taken_.ptr<float>(0)), across(taken_.ptr<float>(1)), taken_share_);
 }
 
 }  // namespace rprr

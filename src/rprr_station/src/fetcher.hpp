@@ -5,11 +5,22 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/core/mat.hpp>
 
 #include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/pixel_map.hpp"
 
 namespace rprr {
+
+/// Where points lie in the reference image, each in arrays of the caller's.
+struct FetchPlaces {
+  int* nearest;  // index of the nearest pixel; -1: more than half a pixel out of the image
+  int* column;   // of the upper left one of the four pixels around
+  int* row;
+  int* across;  // from there, in steps of 1 / Fetcher::kOne
+  int* down;
+};
 
 /// Fetches colours of the reference image for points of the target view, bilinearly.
 class Fetcher {
@@ -24,15 +35,23 @@ class Fetcher {
         cols_(bgr.cols),
         rows_(bgr.rows),
         unit_(static_cast<float>(depth.unit)),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance),
+        row_bytes_(3 * bgr.cols),
+        // Images of a single column or row are all rim.
+        last_row_(bgr.cols < 2 || bgr.rows < 2 ? -1 : bgr.rows - 2) {}
 
-  /// Places for fetch(): x and y in pixels, turned into steps of 1 / kOne and kept in the image; -1
-  /// in x where they are more than half a pixel out of it. Plain numbers, so that compilers
-  /// vectorise it.
+  /// Where points x, y (pixels) lie. Plain numbers, so that compilers vectorise it.
   void find_places(const float* __restrict x, const float* __restrict y, int count,
-                   int* __restrict x_steps, int* __restrict y_steps) const {
+                   const FetchPlaces& places) const {
+    int* __restrict const nearest = places.nearest;
+    int* __restrict const column = places.column;
+    int* __restrict const row = places.row;
+    int* __restrict const across = places.across;
+    int* __restrict const down = places.down;
     const auto right = static_cast<float>(cols_ - 1);
     const auto bottom = static_cast<float>(rows_ - 1);
+    const int cols = cols_, last_column = cols_ - 2, last_row = rows_ - 2;
+    constexpr int kHalf = kOne / 2;
     for (int i = 0; i < count; ++i) {
       const int out = static_cast<int>(!(x[i] >= -0.5f)) | static_cast<int>(!(y[i] >= -0.5f)) |
                       static_cast<int>(!(x[i] < right + 0.5f)) |
@@ -40,20 +59,50 @@ class Fetcher {
       // In this order what is not a number becomes 0.
       const float u = std::min(std::max(0.0f, x[i]), right);
       const float v = std::min(std::max(0.0f, y[i]), bottom);
-      x_steps[i] = static_cast<int>(u * kOne + 0.5f) | -out;
-      y_steps[i] = static_cast<int>(v * kOne + 0.5f);
+      const int x_steps = static_cast<int>(u * kOne + 0.5f);
+      const int y_steps = static_cast<int>(v * kOne + 0.5f);
+      nearest[i] = (((y_steps + kHalf) >> kBits) * cols + ((x_steps + kHalf) >> kBits)) | -out;
+      column[i] = std::min(x_steps >> kBits, last_column);
+      row[i] = std::min(y_steps >> kBits, last_row);
+      across[i] = x_steps - column[i] * kOne;
+      down[i] = y_steps - row[i] * kOne;
     }
   }
 
-  /// Colour at a place, if the reference shows the surface at depth z there, or has no depth there.
-  bool fetch(int x_steps, int y_steps, float z, std::uint8_t* colour) const {
-    if (x_steps < 0) return false;
-    constexpr int kHalf = kOne / 2;
-    const int nearest = ((y_steps + kHalf) >> kBits) * cols_ + ((x_steps + kHalf) >> kBits);
-    const float seen = unit_ * static_cast<float>(depth_[nearest]);
-    if (seen > 0.0f && std::abs(seen - z) > tolerance_ * z) return false;
-    interpolate(x_steps, y_steps, colour);
-    return true;
+  /// Depths that the reference has nearest to places, metres; 0 where it has none.
+  void look(const int* __restrict nearest, int count, float* __restrict seen) const {
+    for (int i = 0; i < count; ++i) {
+      seen[i] = unit_ * static_cast<float>(depth_[std::max(nearest[i], 0)]);
+    }
+  }
+
+  /// Flags the places where the reference shows the surface at depth z, or has no depth.
+  void compare(const int* __restrict nearest, const float* __restrict seen,
+               const float* __restrict z, int count, std::uint8_t* __restrict shows) const {
+    const float tolerance = tolerance_;
+    for (int i = 0; i < count; ++i) {
+      const int other = static_cast<int>(seen[i] > 0.0f) &
+                        static_cast<int>(std::abs(seen[i] - z[i]) > tolerance * z[i]);
+      shows[i] = static_cast<std::uint8_t>(static_cast<int>(z[i] >= kNearestDepth) &
+                                           static_cast<int>(nearest[i] >= 0) & (other ^ 1));
+    }
+  }
+
+  /// Colour at the i-th place, which is in the image.
+  void fetch(const FetchPlaces& places, int i, std::uint8_t* colour) const {
+    const int u = places.column[i];
+    const int v = places.row[i];
+    const int across = places.across[i];
+    const int down = places.down[i];
+    // Eight bytes are read of each row, two more than its two pixels have.
+    if (v >= last_row_) return interpolate_at_rim(u, v, across, down, colour);
+    const std::uint8_t* corner = pixel(v * cols_ + u);
+    const Lanes upper = load(corner);
+    const Lanes lower = load(corner + row_bytes_);
+    const Lanes columns =
+        mix(cv::v_combine_low(upper, lower),
+            cv::v_combine_low(cv::v_rotate_right<3>(upper), cv::v_rotate_right<3>(lower)), across);
+    store(mix(columns, cv::v_combine_high(columns, columns), down), colour);
   }
 
   /// The colour of a pixel, by its index.
@@ -62,19 +111,6 @@ class Fetcher {
   }
 
  private:
-  void interpolate(int x, int y, std::uint8_t* colour) const {
-    const int u = std::min(x >> kBits, cols_ - 2);
-    const int v = std::min(y >> kBits, rows_ - 2);
-    const int across = x - (u << kBits);
-    const int down = y - (v << kBits);
-    // Four bytes are read of each pixel, one more than it has.
-    if (v + 2 >= rows_ || u < 0 || v < 0) return interpolate_at_rim(u, v, across, down, colour);
-    const std::uint8_t* upper = pixel(v * cols_ + u);
-    const std::uint8_t* lower = upper + 3 * cols_;
-    const Lanes columns = mix(load(upper, lower), load(upper + 3, lower + 3), across);
-    store(mix(columns, upper_half(columns), down), colour);
-  }
-
   void interpolate_at_rim(int u, int v, int across, int down, std::uint8_t* colour) const {
     // Images of one row or column have no second.
     const int left = std::max(u, 0);
@@ -92,32 +128,20 @@ class Fetcher {
     }
   }
 
-  // Eight 16-bit lanes in the compilers' portable vector type: a pixel of an upper row in four,
-  // one of the row below in the others.
-  using Lanes = std::int16_t __attribute__((vector_size(16)));
-  using Octets = std::uint8_t __attribute__((vector_size(8)));
-  using Halves = std::int64_t __attribute__((vector_size(16)));
+  // Eight numbers of 16 bits: of two pixels that follow each other, or a pixel of an upper row in
+  // four and one of the row below in the others.
+  using Lanes = cv::v_int16x8;
 
-  static Lanes load(const std::uint8_t* upper, const std::uint8_t* lower) {
-    Octets bytes;
-    std::memcpy(&bytes, upper, 4);
-    std::memcpy(reinterpret_cast<char*>(&bytes) + 4, lower, 4);
-    return __builtin_convertvector(bytes, Lanes);
-  }
-  static Lanes upper_half(Lanes lanes) {
-    const auto halves = reinterpret_cast<Halves>(lanes);
-    return reinterpret_cast<Lanes>(Halves{halves[1], halves[1]});
-  }
-  static Lanes all(int value) {
-    const auto v = static_cast<std::int16_t>(value);
-    return Lanes{v, v, v, v, v, v, v, v};
+  static Lanes load(const std::uint8_t* from) {
+    return cv::v_reinterpret_as_s16(cv::v_load_expand(from));
   }
   // a + share (b - a), share in steps; products are at most 255 * 128 either way.
-  static Lanes mix(Lanes a, Lanes b, int share) {
-    return a + (((b - a) * all(share) + all(kOne / 2)) >> kBits);
+  static Lanes mix(const Lanes& a, const Lanes& b, int share) {
+    const Lanes part = cv::v_mul_wrap(b - a, cv::v_setall_s16(static_cast<short>(share)));
+    return a + cv::v_shr<kBits>(part + cv::v_setall_s16(kOne / 2));
   }
-  static void store(Lanes lanes, std::uint8_t* colour) {
-    const Octets bytes = __builtin_convertvector(lanes, Octets);
+  static void store(const Lanes& lanes, std::uint8_t* colour) {
+    const unsigned bytes = cv::v_reinterpret_as_u32(cv::v_pack_u(lanes, lanes)).get0();
     std::memcpy(colour, &bytes, 3);
   }
 
@@ -127,6 +151,8 @@ class Fetcher {
   int rows_;
   float unit_;
   float tolerance_;
+  int row_bytes_;
+  int last_row_;
 };
 
 }  // namespace rprr

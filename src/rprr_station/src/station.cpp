@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "block_pixels.hpp"
+
 namespace rprr {
 namespace {
 
@@ -24,14 +26,14 @@ int blocks_without_depth(const DepthFrame& depth, const BlockGrid& grid, const B
   int count = 0;
   for (int block = 0; block < grid.count(); ++block) {
     if (!sent.empty() && !sent[block]) continue;
-    count += cv::countNonZero(depth.counts(grid.rect(block))) == 0 ? 1 : 0;
+    count += any_pixel(depth.counts, grid.rect(block)) ? 0 : 1;
   }
   return count;
 }
 
 void forget_blocks(const BlockMask& blocks, cv::Mat& provenance) {
   for (int block = 0; block < blocks.grid().count(); ++block) {
-    if (blocks[block]) provenance(blocks.grid().rect(block)).setTo(kNothing);
+    if (blocks[block]) set_pixels(provenance, blocks.grid().rect(block), kNothing);
   }
 }
 

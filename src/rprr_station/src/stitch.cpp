@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "block_pixels.hpp"
+
 namespace rprr {
 namespace {
 
@@ -48,13 +50,13 @@ Result<StitchedView> Stitcher::stitch(const PredictedView& predicted, const cv::
   for (int block = 0; block < grid.count(); ++block) {
     const cv::Rect rect = grid.rect(block);
     if (mask[block] && !received_bgr.empty()) {
-      received_bgr(rect).copyTo(view.bgr(rect));
-      view.provenance(rect).setTo(depth_mask[block] ? kReceived : kReceivedColour);
+      copy_pixels(received_bgr, rect, view.bgr);
+      set_pixels(view.provenance, rect, depth_mask[block] ? kReceived : kReceivedColour);
     }
     if (depth_mask[block]) {
-      if (received_bgr.empty()) view.provenance(rect).setTo(kReceivedDepth);
-      received_depth.counts(rect).copyTo(view.depth.counts(rect));
-      predicted_depth_(rect).setTo(0);
+      if (received_bgr.empty()) set_pixels(view.provenance, rect, kReceivedDepth);
+      copy_pixels(received_depth.counts, rect, view.depth.counts);
+      set_pixels(predicted_depth_, rect, 0);
     }
   }
   depth_edges_.clear(view.depth.counts, predicted_depth_);

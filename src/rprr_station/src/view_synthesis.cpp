@@ -117,7 +117,8 @@ void ViewSynthesizer::synthesize(const DepthFrame& a, const cv::Mat& a_bgr, cons
   }
   const Fetcher fetcher(a, a_bgr, options_.surface_tolerance);
   rows_.create(6, b_camera.width, CV_32FC1);
-  places_.create(2, b_camera.width, CV_32SC1);
+  places_.create(5, b_camera.width, CV_32SC1);
+  shows_.create(1, b_camera.width, CV_8UC1);
   for (int v = 0; v < b_camera.height; ++v) fetch_row(fetcher, to_a, v, view);
 }
 
@@ -150,6 +151,34 @@ void ViewSynthesizer::align(const cv::Mat& a_bgr, const PixelMap& to_a, const Ba
   shifts_ = alignment_.align(brightness_, valid_, wanted_);
 }
 
+// Where to look in the prediction's depth for pixels of a row that are fetched from where they are
+// shifted to (columns and rows there), and the depths found; own ones where there is none.
+const float* ViewSynthesizer::shift_row(int v, const cv::Mat& metres, float* __restrict column,
+                                        float* __restrict row) {
+  const int width = metres.cols;
+  shifts_of_row(shifts_, kAlignment, v, width, column, row);
+  const auto here = static_cast<float>(v);
+  const auto right = static_cast<float>(width - 1);
+  const auto bottom = static_cast<float>(metres.rows - 1);
+  const auto stride = static_cast<int>(metres.step1());
+  int* __restrict const place = places_.ptr<int>(0);
+  for (int u = 0; u < width; ++u) {
+    column[u] += static_cast<float>(u);
+    row[u] += here;
+    const float x = std::min(std::max(column[u] + 0.5f, 0.0f), right);
+    const float y = std::min(std::max(row[u] + 0.5f, 0.0f), bottom);
+    place[u] = static_cast<int>(y) * stride + static_cast<int>(x);
+  }
+  const auto* const all = metres.ptr<float>();
+  const auto* const own = metres.ptr<float>(v);
+  float* const z = rows_.ptr<float>(5);
+  for (int u = 0; u < width; ++u) {
+    const float there = all[place[u]];
+    z[u] = there > 0.0f ? there : own[u];
+  }
+  return z;
+}
+
 void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int v,
                                 PredictedView& view) {
   const int width = view.metres.cols;
@@ -158,17 +187,7 @@ void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int
   float* const column = rows_.ptr<float>(0);
   float* const row = rows_.ptr<float>(1);
   if (!shifts_.empty()) {
-    shifts_of_row(shifts_, kAlignment, v, width, column, row);
-    float* const shifted_z = rows_.ptr<float>(5);
-    for (int u = 0; u < width; ++u) {
-      column[u] += static_cast<float>(u);
-      row[u] += static_cast<float>(v);
-      const int x = std::clamp(static_cast<int>(column[u] + 0.5f), 0, width - 1);
-      const int y = std::clamp(static_cast<int>(row[u] + 0.5f), 0, view.metres.rows - 1);
-      const float there = view.metres.ptr<float>(y)[x];
-      shifted_z[u] = there > 0.0f ? there : depth[u];
-    }
-    z = shifted_z;
+    z = shift_row(v, view.metres, column, row);
   } else {
     for (int u = 0; u < width; ++u) column[u] = static_cast<float>(u);
     std::fill(row, row + width, static_cast<float>(v));
@@ -176,14 +195,19 @@ void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int
   const Projected at{rows_.ptr<float>(2), rows_.ptr<float>(3), rows_.ptr<float>(4)};
   project(to_a, z, column, row, width, at);
 
+  const Fetcher fetcher = shared;  // its own, so that compilers see that colours do not alias it
+  const FetchPlaces places{places_.ptr<int>(0), places_.ptr<int>(1), places_.ptr<int>(2),
+                           places_.ptr<int>(3), places_.ptr<int>(4)};
+  auto* const shows = shows_.ptr<std::uint8_t>();
+  float* const seen = column;  // not needed any more
+  fetcher.find_places(at.x, at.y, width, places);
+  fetcher.look(places.nearest, width, seen);
+  fetcher.compare(places.nearest, seen, at.z, width, shows);
+
   auto* const provenance = view.provenance.ptr<std::uint8_t>(v);
   auto* const colours = view.bgr.ptr<std::uint8_t>(v);
   const auto* const source = warped_.source.ptr<int>(v);
   const bool backward = options_.mode == Synthesis::kBackward;
-  const Fetcher fetcher = shared;  // its own, so that compilers see that colours do not alias it
-  int* const x_steps = places_.ptr<int>(0);
-  int* const y_steps = places_.ptr<int>(1);
-  fetcher.find_places(at.x, at.y, width, x_steps, y_steps);
   for (int u = 0; u < width; ++u) {
     if (!(depth[u] > 0.0f)) {
       provenance[u] = kNothing;
@@ -191,13 +215,9 @@ void ViewSynthesizer::fetch_row(const Fetcher& shared, const PixelMap& to_a, int
     }
     const bool mended = provenance[u] != 0;
     provenance[u] = mended ? kMended : kPredicted;
-    if (mended || backward) {
-      if (at.z[u] >= kNearestDepth &&
-          fetcher.fetch(x_steps[u], y_steps[u], at.z[u], colours + 3 * u)) {
-        continue;
-      }
-    }
-    if (!mended) {
+    if ((mended || backward) && shows[u] != 0) {
+      fetcher.fetch(places, u, colours + 3 * u);
+    } else if (!mended) {
       std::memcpy(colours + 3 * u, fetcher.pixel(source[u]), 3);
     } else {
       // The reference shows another surface there: nothing known. Rows to come may be shifted to

@@ -51,6 +51,20 @@ sensor_msgs::PointCloud2 cloud_message(const RebuiltFrame& frame, const std_msgs
   return cloud;
 }
 
+sensor_msgs::PointCloud2 scene_message(const Scene& scene) {
+  std_msgs::Header header;
+  header.stamp = to_time(scene.stamp);
+  header.frame_id = clean_frame(scene.frame_id);
+  if (header.frame_id.empty()) header.frame_id = optical_frame(scene.robot);
+  sensor_msgs::PointCloud2 cloud =
+      make_cloud(header, static_cast<std::uint32_t>(scene.points.size()), 1);
+  cloud.is_dense = true;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    set_point(cloud, i, scene.points[i].position, scene.points[i].bgr.data());
+  }
+  return cloud;
+}
+
 rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
                                              const std_msgs::Header& header) {
   const auto u32 = [](std::size_t value) { return static_cast<std::uint32_t>(value); };

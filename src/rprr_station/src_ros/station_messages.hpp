@@ -9,6 +9,7 @@
 
 #include <string>
 
+#include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/station.hpp"
 
 namespace rprr {
@@ -32,6 +33,9 @@ visualization_msgs::Marker frustum_message(const RebuiltFrame& frame,
                                            double length);
 
 /// All but latency_ms, which needs a clock.
+/// Unorganised, x y z rgb, in the reference's optical frame and of its stamp.
+sensor_msgs::PointCloud2 scene_message(const Scene& scene);
+
 rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
                                              const std_msgs::Header& header);
 

@@ -23,6 +23,7 @@
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
+#include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/station.hpp"
 #include "station_messages.hpp"
 #include "station_parameters.hpp"
@@ -62,8 +63,10 @@ class StationNodelet : public nodelet::Nodelet {
     const std::vector<std::string>& names = parameters_.station.robots;
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
+    points_ = nh.advertise<sensor_msgs::PointCloud2>("/station/points", 2);
     receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
     frusta_ = nh.advertise<visualization_msgs::MarkerArray>("/station/frusta", 20);
+    cloud_ = std::make_unique<SceneCloud>(parameters_.cloud);
     station_ = std::make_unique<Station>(parameters_.station, make_isolated_colour_decoder());
     // One job for every message that waits, one for the tick: no job is ever dropped.
     worker_ = std::make_unique<Worker>(names.size() * parameters_.queue * kChunksOfAFrame + 1);
@@ -208,10 +211,23 @@ class StationNodelet : public nodelet::Nodelet {
           frustum_message(frame, header, robot.number, parameters_.frustum_length));
       frusta_.publish(frusta);
     }
+    publish_scene(frame);
     rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
     statistics.latency_ms = static_cast<float>((ros::Time::now() - header.stamp).toSec() * 1e3);
     statistics_.publish(statistics);
     health_->count(frame.robot + (frame.sparse ? ": sparse frames" : ": whole frames"));
+  }
+
+  // Frames are kept only while somebody listens: the first scene is that of the next reference.
+  void publish_scene(const RebuiltFrame& frame) {
+    if (points_.getNumSubscribers() == 0) {
+      cloud_->clear();
+      return;
+    }
+    if (!cloud_->add(frame) || now() < next_scene_) return;
+    next_scene_ = now() + parameters_.cloud_period;
+    cloud_->make(scene_);
+    points_.publish(boost::make_shared<sensor_msgs::PointCloud2>(scene_message(scene_)));
   }
 
   void publish_receipt(const std::string& robot, const std::vector<Stamp>& repeats) {
@@ -229,12 +245,16 @@ class StationNodelet : public nodelet::Nodelet {
   std::unique_ptr<Health> health_;
   ros::Publisher statistics_;
   ros::Publisher receipts_;
+  ros::Publisher points_;
   ros::Publisher frusta_;
   SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
-  std::unique_ptr<Station> station_;  // the worker's, as the next
+  std::unique_ptr<Station> station_;  // the worker's, as are the next four
   unsigned ticks_ = 0;
+  std::unique_ptr<SceneCloud> cloud_;
+  Scene scene_;
+  Stamp next_scene_ = 0;
   std::map<std::string, Robot> robots_;
   std::unique_ptr<Worker> worker_;
   ros::WallTimer timer_;

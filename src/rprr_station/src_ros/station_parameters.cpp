@@ -86,6 +86,10 @@ Result<StationParameters> read_station_parameters(const ros::NodeHandle& nh) {
   station.largest_image = at_least(nh, "largest_image", 1920 * 1200, 1);
   station.energy.bytes_per_second = nh.param("radio_bytes_per_second", 1e6);
   parameters.frustum_length = std::max(nh.param("frustum_length", 0.5), 0.01);
+  parameters.cloud.references = station.references_held;
+  parameters.cloud.views = std::max<std::size_t>(station.robots.size(), 2) - 1;
+  parameters.cloud.most_points = at_least(nh, "cloud_points", 1000000, 1);
+  parameters.cloud_period = from_seconds(std::max(nh.param("cloud_period", 0.5), 0.0));
   parameters.queue = at_least(nh, "queue", 4, 1);
   return parameters;
 }

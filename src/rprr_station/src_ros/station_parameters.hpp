@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include "rprr_geometry/result.hpp"
+#include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/station.hpp"
 #include "station_messages.hpp"
 
@@ -13,7 +14,9 @@ struct StationParameters {
   StationOptions station;
   DepthEncoding depth_encoding = DepthEncoding::kAuto;
   double frustum_length = 0.5;  // metres
-  std::size_t queue = 4;        // messages per robot that may wait for the decoder
+  SceneCloudOptions cloud;
+  Duration cloud_period = from_seconds(0.5);  // least time between scene clouds
+  std::size_t queue = 4;                      // messages per robot that may wait for the decoder
 };
 
 /// The private parameters of config/station.yaml. Errors name the parameter and what it may be.

@@ -79,6 +79,19 @@ TEST(CrackFilter, RemovesBackgroundThatShinesThrough) {
   EXPECT_EQ(changed(mended), 4);
 }
 
+TEST(CrackFilter, GhostsGoWhereverTheyAreInARow) {
+  for (int u = 1; u < 100; ++u) {
+    for (const float ghost : {1.0f, 3.0f}) {
+      cv::Mat metres = plane(2.0f, 101, 3);
+      metres.at<float>(1, u) = ghost;
+      cv::Mat mended;
+      CrackFilter().mend(metres, mended);
+      EXPECT_EQ(metres.at<float>(1, u), 2.0f) << "column " << u;
+      EXPECT_EQ(changed(mended), 1) << "column " << u;
+    }
+  }
+}
+
 TEST(CrackFilter, GhostsNeedOneSurfaceAround) {
   cv::Mat metres = plane(1.0f);
   metres(cv::Rect(20, 0, 44, 48)).setTo(2.0f);

@@ -77,7 +77,7 @@ class StationNodelet : public testing::Test {
   void SetUp() override {
     ASSERT_TRUE(wait([this] {
       return a.getNumSubscribers() > 0 && b.getNumSubscribers() > 0 && rgb.connected() &&
-             info.connected() && depth.connected() && points.connected() &&
+             info.connected() && depth.connected() && points.connected() && scene.connected() &&
              provenance.connected() && frusta.connected() && statistics.connected() &&
              receipts.connected();
     })) << "the station does not use the fixed topics";
@@ -117,6 +117,7 @@ class StationNodelet : public testing::Test {
   Inbox<sensor_msgs::CameraInfo> info{nh, "/station/eyebug_b/rgb/camera_info"};
   Inbox<sensor_msgs::Image> depth{nh, "/station/eyebug_b/depth_registered/image_rect"};
   Inbox<sensor_msgs::PointCloud2> points{nh, "/station/eyebug_b/points"};
+  Inbox<sensor_msgs::PointCloud2> scene{nh, "/station/points"};
   Inbox<sensor_msgs::Image> provenance{nh, "/station/eyebug_b/provenance"};
   Inbox<visualization_msgs::MarkerArray> frusta{nh, "/station/frusta"};
   Inbox<rprr_msgs::PairStatistics> statistics{nh, "/station/statistics"};
@@ -142,9 +143,10 @@ TEST_F(StationNodelet, WholeAndSparseFrameToViews) {
   send(b, stamp + ros::Duration(1), "eyebug_b_rgb_optical_frame", sparse_bytes);
   ASSERT_TRUE(wait([this] {
     return !rgb_a.messages.empty() && !rgb.messages.empty() && !depth.messages.empty() &&
-           !points.messages.empty() && !provenance.messages.empty() && !info.messages.empty() &&
-           statistics_of("eyebug_a") != nullptr && statistics_of("eyebug_b") != nullptr &&
-           holds("eyebug_a", stamp) && frusta.messages.size() >= 2;
+           !points.messages.empty() && !scene.messages.empty() && !provenance.messages.empty() &&
+           !info.messages.empty() && statistics_of("eyebug_a") != nullptr &&
+           statistics_of("eyebug_b") != nullptr && holds("eyebug_a", stamp) &&
+           frusta.messages.size() >= 2;
   }));
   EXPECT_EQ(rgb_a.messages[0]->header.frame_id, "eyebug_a_rgb_optical_frame");
   EXPECT_EQ(rgb.messages[0]->header.frame_id, "eyebug_b_rprr_optical_frame");
@@ -169,6 +171,11 @@ TEST_F(StationNodelet, WholeAndSparseFrameToViews) {
   std::memcpy(xyz, &cloud.data[(100 * 160 + 100) * 16], sizeof(xyz));
   EXPECT_NEAR(xyz[0], (100 - 79.5) / 140 * 2, 1e-4);
   EXPECT_NEAR(xyz[2], 2.0, 1e-4);
+
+  EXPECT_EQ(scene.messages[0]->header.frame_id, "eyebug_a_rgb_optical_frame");
+  EXPECT_EQ(scene.messages[0]->header.stamp, stamp) << "the reference's";
+  EXPECT_EQ(scene.messages[0]->width, 160u * 120 + 2 * 64)
+      << "all of a's points, b's own two blocks";
 
   ASSERT_EQ(frusta.messages[1]->markers.size(), 1u);
   const visualization_msgs::Marker& of_a = frusta.messages[0]->markers[0];

@@ -9,9 +9,9 @@
 
 namespace rprr {
 
-/// A column or row of a frame in its base: between two pixels (times three, for their colours), and
-/// how far towards the second.
-struct BasePlace {
+/// A column or row of a frame in a smaller image: between two pixels, and how far towards the
+/// second.
+struct SmallerPlace {
   int first;
   int second;
   float share;
@@ -30,9 +30,13 @@ class BaseFill {
   using Float4 = float __attribute__((vector_size(16)));
 
   void measure_offsets(const BaseImage& base, const PredictedView& view);
-  Float4 sample_base(const BaseImage& base, int u, int v) const;
+  void take_rows(const BaseImage& base, int v);
+  Float4 sample_base(int u) const;
 
-  std::vector<BasePlace> columns_, rows_;
+  std::vector<SmallerPlace> columns_, rows_;  // in the base
+  std::vector<SmallerPlace> offset_columns_, offset_rows_;
+  cv::Mat taken_;             // CV_32FC1, the base's two rows around a row of the frame
+  float taken_share_ = 0.0f;  // of the second of them
   std::vector<cv::Mat> offsets_ = std::vector<cv::Mat>(1);  // CV_32FC4, each of half the size
 };
 

@@ -54,6 +54,7 @@ class BaseFusion {
   std::vector<Level> levels_;  // level k has cells of 2^k pixels; of 0 only energy and share
   cv::Mat rest_;               // CV_32FC4: what is to be added, and a weight
   cv::Mat mixed_;              // CV_32FC4, a row
+  cv::Mat floats_;             // CV_32FC1, rows of colours
   cv::Mat agreement_[3];       // CV_32FC1: variances of prediction and estimate, covariance
   cv::Mat smoothed_;
   std::vector<float> sample_;

@@ -21,10 +21,15 @@ class DepthEdges {
   void clear(cv::Mat& counts, const cv::Mat& predicted);
 
  private:
+  void find_range(int v);
+  void clear_row(const std::int16_t* near, const std::int16_t* far, const std::uint8_t* predicted,
+                 int width, std::uint16_t* depth) const;
+
   int margin_;
   float jump_;
-  cv::Mat nearest_, farthest_;                      // CV_16UC1, within the margin along rows
-  std::vector<std::uint16_t> padded_, near_, far_;  // of a row; the last two in the whole window
+  cv::Mat nearest_, farthest_;                // CV_16SC1, within the margin along rows
+  std::vector<std::int16_t> padded_, spare_;  // of a row
+  std::vector<std::int16_t> near_, far_;      // of a row, in the whole window
 };
 
 }  // namespace rprr

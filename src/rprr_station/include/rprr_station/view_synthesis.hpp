@@ -55,6 +55,7 @@ class ViewSynthesizer {
  private:
   void align(const cv::Mat& a_bgr, const PixelMap& to_a, const BaseImage& base,
              const cv::Mat& metres);
+  const float* shift_row(int v, const cv::Mat& metres, float* column, float* row);
   void fetch_row(const class Fetcher& fetcher, const PixelMap& to_a, int v, PredictedView& view);
 
   SynthesisOptions options_;
@@ -64,8 +65,9 @@ class ViewSynthesizer {
   cv::Mat shifts_;                                      // empty: none
   cv::Mat a_brightness_, brightness_, valid_, wanted_;  // of a quarter of the size
   std::vector<std::uint16_t> sums_;
-  cv::Mat places_;  // CV_32SC1, of a row
   cv::Mat rows_;    // CV_32FC1, a few rows of numbers
+  cv::Mat places_;  // CV_32SC1, likewise
+  cv::Mat shows_;   // CV_8UC1, a row of flags
 };
 
 }  // namespace rprr
