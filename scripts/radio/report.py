@@ -166,8 +166,7 @@ def print_settings(settings):
           f"{settings['folder']}, step {settings['step']}, {settings['fps']:g} frames per second "
           f"offered for {settings['seconds']} s")
     special = {"profile": settings["profile"], "arguments": settings["launch_args"],
-               "parameters": " ".join(settings["params"]), "send buffer": settings["send_buffer"],
-               "master at": settings["master"]}
+               "parameters": " ".join(settings["params"]), "master at": settings["master"]}
     print(", ".join(f"{name} {value}" for name, value in special.items() if value) + "\n")
 
 

@@ -45,7 +45,8 @@ class _Result(unittest.TextTestResult):
         self._note("skipped", reason)
 
     def _note(self, kind, text):
-        ElementTree.SubElement(self.case, kind, message=text)
+        plain = "".join(each if each.isprintable() or each == "\n" else " " for each in text)
+        ElementTree.SubElement(self.case, kind, message=plain)
 
 
 def main(test_case):

@@ -60,9 +60,12 @@ class KeepRunning(unittest.TestCase):
                 process.wait()
         return process.returncode
 
+    def said(self):
+        return (self.folder / "output").read_text(encoding="utf-8")
+
     def output(self):
-        self.log.flush()
-        return (self.folder / "output").read_text(encoding="utf-8")[-3000:]
+        """The end of what was said: what a failure shows."""
+        return self.said()[-3000:]
 
     def start_master(self):
         core = self.start("roscore", "-p", str(self.port))
@@ -106,7 +109,7 @@ class KeepRunning(unittest.TestCase):
         self.assertTrue(wait_for(lambda: "/station/statistics" in (self.published() or ()), 60),
                         "the station did not register with the new master\n" + self.output())
         self.assertTrue(self.await_exchange(60), "no exchange afterwards\n" + self.output())
-        self.assertEqual(self.output().count("another master answers"), 1, self.output())
+        self.assertEqual(self.said().count("another master answers"), 1, self.output())
         self.assertEqual(self.stop(keeper), 0, self.output())
         self.assertTrue(wait_for(lambda: "/station/statistics" not in (self.published() or ()), 10),
                         "nodes are left behind\n" + self.output())
@@ -117,13 +120,13 @@ class KeepRunning(unittest.TestCase):
         keeper = self.start(KEEP, "sh", "-c", f"echo run >> {runs}; exit 3")
         self.assertTrue(wait_for(lambda: runs.exists() and runs.read_text().count("run") >= 2, 20),
                         self.output())
-        self.assertIn("the launch ended with 3", self.output())
+        self.assertIn("the launch ended with 3", self.said())
         self.assertEqual(self.stop(keeper), 0, self.output())
 
     def test_it_waits_for_a_master_and_ends_cleanly_meanwhile(self):
         ran = self.folder / "ran"
         keeper = self.start(KEEP, "touch", str(ran))
-        self.assertTrue(wait_for(lambda: "waiting for the master" in self.output(), 10))
+        self.assertTrue(wait_for(lambda: "waiting for the master" in self.said(), 10))
         self.assertFalse(ran.exists(), "it did not wait for the master")
         self.assertEqual(self.stop(keeper), 0, self.output())
 
