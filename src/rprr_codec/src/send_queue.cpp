@@ -102,6 +102,12 @@ void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp no
   });
   if (newest == in_flight_.rend()) return;
   learn(*newest, now);
+  std::size_t bytes = 0;
+  for (auto sent = in_flight_.begin(); sent != newest.base(); ++sent) bytes += sent->bytes;
+  // The radio was busy with those before them until they were acknowledged.
+  const Stamp since = std::max(in_flight_.front().at, acknowledged_at_);
+  smooth(static_cast<double>(bytes) / std::max(to_seconds(now - since), 1e-3), delivery_rate_);
+  acknowledged_at_ = now;
   in_flight_.erase(in_flight_.begin(), newest.base());
 }
 
@@ -109,7 +115,6 @@ void SendQueue::learn(const Sent& sent, Stamp now) {
   const double seconds = std::max(to_seconds(now - sent.at), 1e-3);
   smooth(seconds, receipt_seconds_);
   if (sent.whole) smooth(std::max(to_seconds(now - sent.begun), 1e-3), whole_seconds_);
-  if (sent.alone) smooth(static_cast<double>(sent.bytes) / seconds, delivery_rate_);
 }
 
 // How long receipts of references take, also of those that came too late.
@@ -139,8 +144,7 @@ bool SendQueue::window_is_full(Stamp now) const {
   const Duration lost = lost_after();
   const auto under_way = std::count_if(in_flight_.begin(), in_flight_.end(),
                                        [&](const Sent& sent) { return now - sent.at <= lost; });
-  const std::size_t window =
-      receipt_seconds_ > kSlow || !hears_receipts(now) ? 1 : options_.in_flight;
+  const std::size_t window = is_narrow() || !hears_receipts(now) ? 1 : options_.in_flight;
   return static_cast<std::size_t>(under_way) >= window;
 }
 
@@ -222,6 +226,10 @@ void SendQueue::encoded(const EncodeOrder& order, Bytes data, Stamp now) {
   message.data = std::move(data);
   message.number = next_number_++;
   message.begun = now;
+  const auto bytes = static_cast<double>(message.data.size());
+  if (order.limit == 0 || bytes < 0.9 * static_cast<double>(order.limit)) {
+    smooth(bytes, usual_bytes_);
+  }
   message.whole = !frame.sparse || order.as_whole;
   if (message.whole) {
     kept_.push_back({message, {}});
@@ -262,8 +270,7 @@ std::optional<SendOrder> SendQueue::next_to_send(Stamp now) {
 void SendQueue::sent_all(std::size_t bytes, Stamp now) {
   const Message& message = outgoing_.front();
   if (!message.repeated) {
-    in_flight_.push_back(
-        {message.stamp, message.begun, now, bytes, message.whole, in_flight_.empty()});
+    in_flight_.push_back({message.stamp, message.begun, now, bytes, message.whole});
     if (!last_receipt_ && message.whole) {
       smooth(std::max(to_seconds(now - message.begun), 1e-3), whole_seconds_);
     }

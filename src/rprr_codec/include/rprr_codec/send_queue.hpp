@@ -109,7 +109,10 @@ class SendQueue {
   /// Seconds until everything that is encoded is sent.
   double backlog(Stamp now);
   std::size_t waiting() const { return queue_.size(); }
-  bool is_narrow() const { return limited() || receipt_seconds_ > kSlow; }
+  /// Whether there is a bandwidth, or receipts tell that a frame as it is usually takes long.
+  bool is_narrow() const {
+    return limited() || (delivery_rate_ > 0.0 && usual_bytes_ > kSlow * delivery_rate_);
+  }
   std::size_t repeated() const { return repeated_; }  // frames, so far
 
  private:
@@ -138,7 +141,6 @@ class SendQueue {
     Stamp at = 0;  // when its last byte was handed over
     std::size_t bytes = 0;
     bool whole = false;
-    bool alone = false;  // nothing else was on its way
   };
   struct Kept {
     Message message;
@@ -161,7 +163,7 @@ class SendQueue {
   void learn_wait(const std::vector<Stamp>& held, Stamp now);
   void repeat(Stamp stamp, Stamp now);
 
-  static constexpr double kSlow = 0.5;  // seconds for a receipt: more than one frame would wait
+  static constexpr double kSlow = 0.5;  // seconds for a frame
 
   SendQueueOptions options_;
   RateLimit rate_;
@@ -175,9 +177,11 @@ class SendQueue {
   std::deque<Stamp> own_sent_;                      // whole frames
   std::map<std::string, std::vector<Stamp>> held_;  // of this robot and its references
   std::optional<Stamp> last_receipt_;
-  std::deque<Reference> awaited_;   // oldest first
-  double receipt_seconds_ = 0.0;    // from handing a frame over to its receipt, smoothed
-  double whole_seconds_ = 0.0;      // from encoding a whole frame on, likewise
+  std::deque<Reference> awaited_;  // oldest first
+  double receipt_seconds_ = 0.0;   // from handing a frame over to its receipt, smoothed
+  double whole_seconds_ = 0.0;     // from encoding a whole frame on, likewise
+  double usual_bytes_ = 0.0;       // of a frame that is not coarsened, likewise
+  Stamp acknowledged_at_ = 0;
   double delivery_rate_ = 0.0;      // bytes a second, likewise; 0: not known
   double reference_seconds_ = 0.0;  // that receipts of references take, likewise
   double control_per_frame_ = 0.0;  // bytes of other messages between frames, smoothed
