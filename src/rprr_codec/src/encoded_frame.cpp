@@ -117,22 +117,23 @@ bool get_report(ByteReader& reader, FrameReport& report) {
   return true;
 }
 
-// The flags of a sparse frame:
+// The flags: bit 7 depth is rounded; the others of a sparse frame alone:
 //   bit 0 sparse, bit 1 compact layout, bits 2-4 how often the base is halved, and 1 (0: no base),
 //   bits 5-6 largest component of the quaternion
 constexpr std::uint8_t kSparse = 0x01;
 constexpr std::uint8_t kCompact = 0x02;
 constexpr int kBaseShift = 2;
 constexpr int kLargestShift = 5;
-constexpr std::uint8_t kUnknownFlags = 0x80;
+constexpr std::uint8_t kRounded = 0x80;
 
 constexpr float kNoiseSteps = 8.0f;  // of a grey level
 
 std::uint8_t flags_of(const EncodedFrame& frame, int largest) {
-  if (!frame.sparse) return 0;
+  const int rounded = frame.depth_rounded ? kRounded : 0;
+  if (!frame.sparse) return static_cast<std::uint8_t>(rounded);
   int base = 0;
   while (base < 5 && 1 << base <= frame.base_reduction) ++base;
-  return static_cast<std::uint8_t>(kSparse |
+  return static_cast<std::uint8_t>(rounded | kSparse |
                                    (frame.colour_layout == ColourLayout::kCompact ? kCompact : 0) |
                                    base << kBaseShift | largest << kLargestShift);
 }
@@ -143,8 +144,9 @@ bool read_flags(std::uint8_t flags, EncodedFrame& frame) {
   frame.sparse = (flags & kSparse) != 0;
   frame.colour_layout = (flags & kCompact) != 0 ? ColourLayout::kCompact : ColourLayout::kInPlace;
   frame.base_reduction = base == 0 ? 0 : 1 << (base - 1);
-  return (flags & kUnknownFlags) == 0 && (base == 0 || is_base_reduction(frame.base_reduction)) &&
-         (frame.sparse || flags == 0);
+  frame.depth_rounded = (flags & kRounded) != 0;
+  return (base == 0 || is_base_reduction(frame.base_reduction)) &&
+         (frame.sparse || (flags & ~kRounded) == 0);
 }
 
 // Name of the base's codec, none standing for that of the detail, and its noise.

@@ -100,6 +100,11 @@ Result<bool> FrameEncoder::encode_within(const DepthFrame& depth, const cv::Mat&
                                          EncodedFrame& frame, std::size_t limit) {
   Result<bool> done = prepare(depth, bgr, frame);
   if (!done) return done;
+  if (limit > 0) {
+    round_depth(depth, frame, limit);
+    // Colours get a fifth of the frame.
+    limit = std::max(limit, frame.depth.size() + frame.depth.size() / 4);
+  }
   const EncodedFrame prepared = limit > 0 ? frame : EncodedFrame();
   done = encode_as_asked(frame);
   if (done && limit > 0 && serialise(frame).size() > limit) {
@@ -130,16 +135,32 @@ Result<bool> FrameEncoder::prepare(const DepthFrame& depth, const cv::Mat& bgr,
   if (!problem.empty()) return Error{problem};
   const auto start = Clock::now();
   layers_.prepare(bgr, frame.sparse ? &frame.mask : nullptr);
+  frame.depth_rounded = false;
+  encode_depth(depth, frame);
+  frame.report.ms_encode = milliseconds_since(start);
+  frame.report.independent_bytes_depth = 0;
+  frame.report.independent_bytes_colour = 0;
+  return true;
+}
+
+void FrameEncoder::encode_depth(const DepthFrame& depth, EncodedFrame& frame) {
   frame.depth.clear();
   if (!frame.sparse) {
     frame.depth = depth_->encode(depth);
   } else if (frame.mask.count() > 0) {
     frame.depth = depth_->encode(depth, frame.depth_blocks());
   }
-  frame.report.ms_encode = milliseconds_since(start);
-  frame.report.independent_bytes_depth = 0;
-  frame.report.independent_bytes_colour = 0;
-  return true;
+}
+
+// By growing steps, until it leaves colours their share.
+void FrameEncoder::round_depth(const DepthFrame& depth, EncodedFrame& frame, std::size_t limit) {
+  const auto start = Clock::now();
+  for (const double share : {0.25, 0.5, 1.0}) {
+    if (!(options_.depth_step > 0.0) || 5 * frame.depth.size() <= 4 * limit) break;
+    frame.depth_rounded = true;
+    encode_depth(rounder_.round(depth, share * options_.depth_step), frame);
+  }
+  frame.report.ms_encode += milliseconds_since(start);
 }
 
 Result<bool> FrameEncoder::encode_colour(EncodedFrame& frame, const LayerSettings& settings) {

@@ -27,6 +27,8 @@ Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
   options.measure_independent = nh.param("measure_independent", options.measure_independent);
   options.target_psnr = nh.param("target_psnr", options.target_psnr);
 
+  options.depth_step = nh.param("depth_step", options.depth_step);
+
   const Result<DhcmMode> mode =
       dhcm_mode_from_name(nh.param<std::string>("depth_mode", dhcm_mode_name(options.depth_mode)));
   if (!mode) return Error{"~depth_mode: " + mode.reason()};

@@ -2,6 +2,7 @@
 // How FrameEncoder chooses its layers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rprr_codec/frame_codec.hpp"
@@ -117,39 +118,71 @@ TEST_P(FramePlanning, TheSearchDoesNotDependOnWhereItBegins) {
       << "but for the times that the report states";
 }
 
-TEST_P(FramePlanning, ALimitMakesColoursCoarserAndLeavesDepthAlone) {
-  Result<FrameEncoder> encoder = FrameEncoder::create(options());
-  ASSERT_TRUE(encoder);
-  const auto bytes_within = [&](bool sparse, std::size_t limit, EncodedFrame& frame) {
-    frame = sparse_frame();
+// Of a sparse or a whole frame, within a limit.
+class FrameLimit : public FramePlanning {
+ protected:
+  EncodedFrame within(FrameEncoder& encoder, bool sparse, std::size_t limit) const {
+    EncodedFrame frame = sparse_frame();
     if (!sparse) {
       frame = EncodedFrame();
       frame.camera = sparse_frame().camera;
     }
-    const Result<bool> done = encoder->encode_within(depth_, bgr_, frame, limit);
+    const Result<bool> done = encoder.encode_within(depth_, bgr_, frame, limit);
     EXPECT_TRUE(done) << done.reason();
-    return serialise(frame).size();
-  };
+    return frame;
+  }
+  static constexpr std::size_t kTimes = 12;  // bytes by which the times in a report may differ
+};
+INSTANTIATE_TEST_SUITE_P(Objectives, FrameLimit,
+                         ::testing::Values(Objective::kFixed, Objective::kMap, Objective::kView));
+
+TEST_P(FrameLimit, MakesColoursCoarserAndLeavesDepthAlone) {
+  Result<FrameEncoder> encoder = FrameEncoder::create(options());
+  ASSERT_TRUE(encoder);
   for (const bool sparse : {false, true}) {
-    EncodedFrame usual;
-    EncodedFrame least;
-    const std::size_t most = bytes_within(sparse, 0, usual);
-    const std::size_t lowest = bytes_within(sparse, 1, least);
-    EXPECT_LT(lowest, most);
+    const EncodedFrame usual = within(*encoder, sparse, 0);
+    const std::size_t most = serialise(usual).size();
+    const EncodedFrame least = within(*encoder, sparse, 1);
+    const std::size_t lowest = serialise(least).size();
+    EXPECT_LE(lowest, most + kTimes);
     EXPECT_EQ(least.depth, usual.depth);
-    std::size_t last = lowest;
+    EXPECT_FALSE(least.depth_rounded);
     for (int i = 1; i <= 4; ++i) {
-      EncodedFrame frame;
-      const std::size_t limit = lowest + static_cast<std::size_t>(i) * (most - lowest) / 4;
-      const std::size_t bytes = bytes_within(sparse, limit, frame);
-      EXPECT_LE(bytes, limit) << (sparse ? "sparse" : "whole");
-      EXPECT_GE(bytes + 12, last) << "but for the times that the report states";
-      last = bytes;
+      const std::size_t floor = std::max(lowest, usual.depth.size() * 5 / 4);
+      const std::size_t limit = floor + static_cast<std::size_t>(i) * (most - lowest) / 4;
+      EXPECT_LE(serialise(within(*encoder, sparse, limit)).size(), limit)
+          << (sparse ? "sparse" : "whole");
     }
-    EncodedFrame ample;
-    EXPECT_NEAR(static_cast<double>(bytes_within(sparse, 10 * most, ample)),
-                static_cast<double>(most), 12.0)
+    const std::size_t ample = serialise(within(*encoder, sparse, 10 * most)).size();
+    EXPECT_NEAR(static_cast<double>(ample), static_cast<double>(most), kTimes)
         << "no finer than asked for";
+  }
+}
+
+TEST_P(FrameLimit, RoundsDepthNoMoreThanAllowedAndSaysSo) {
+  FrameCodecOptions options = this->options();
+  options.depth_step = 0.02;
+  Result<FrameEncoder> encoder = FrameEncoder::create(options);
+  ASSERT_TRUE(encoder);
+  FrameDecoder decoder(make_local_colour_decoder());
+  for (const bool sparse : {false, true}) {
+    const std::size_t most = serialise(within(*encoder, sparse, 0)).size();
+    EXPECT_FALSE(within(*encoder, sparse, 10 * most).depth_rounded);
+    const Result<EncodedFrame> least = parse_encoded_frame(serialise(within(*encoder, sparse, 1)));
+    ASSERT_TRUE(least) << least.reason();
+    EXPECT_TRUE(least->depth_rounded);
+    const Result<DecodedFrame> decoded = decoder.decode(*least);
+    ASSERT_TRUE(decoded) << decoded.reason();
+    const cv::Mat expected =
+        sparse ? synthetic::only(depth_.counts, least->depth_blocks()) : depth_.counts;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const int before = expected.at<std::uint16_t>(i / kWidth, i % kWidth);
+      const int after = decoded->depth.counts.at<std::uint16_t>(i / kWidth, i % kWidth);
+      ASSERT_EQ(before == 0, after == 0);
+      if (before == 0) continue;
+      const double z = before * depth_.unit;
+      ASSERT_LE(std::abs(before - after) * depth_.unit, 0.011 * z * z * 1.2 + depth_.unit) << z;
+    }
   }
 }
 

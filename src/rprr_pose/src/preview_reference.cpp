@@ -12,6 +12,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kSentKept = 8;               // frames, as references for later
+constexpr double kEnoughShared = 0.5;              // of b's view, for an older reference
 constexpr double kSlowFrame = 0.75;                // seconds to the station
 constexpr Duration kPatience = from_seconds(0.1);  // with a frame that is about to arrive
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
@@ -40,7 +41,7 @@ class PreviewReference final : public ExchangeRole {
     if (!early_ || now < early_deadline_) return;
     const PreviewMessage message = *std::exchange(early_, std::nullopt);
     if (options_.reference_age == 0) return;
-    if (const PoseFramePtr frame = frames_.newest()) answer(message, frame, now, out);
+    if (const PoseFramePtr frame = frames_.newest()) answer(message, frame, frame, now, out);
   }
 
   void set_radio(const RadioState& radio, Stamp, RoleOutput&) override { radio_ = radio; }
@@ -51,7 +52,7 @@ class PreviewReference final : public ExchangeRole {
     // What the station holds already serves at once. Meanwhile a new one is on its way.
     const PoseFramePtr held = is_slow() ? last_sent(now) : nullptr;
     if (held && frame && radio_.ready) send_whole(frame, message.exchange, now, out);
-    if (held || frame) return answer(message, held ? held : frame, now, out);
+    if (held || frame) return answer(message, held ? held : frame, frame, now, out);
     early_ = message;  // its frame may be about to arrive
     early_deadline_ =
         now + (options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout});
@@ -80,21 +81,24 @@ class PreviewReference final : public ExchangeRole {
     return sent_.empty() ? nullptr : sent_.back().frame;
   }
 
-  void answer(const PreviewMessage& message, const PoseFramePtr& frame, Stamp now,
-              RoleOutput& out) {
+  // With the pose to `first`, or where that does not show enough of b's view, to `second`.
+  void answer(const PreviewMessage& message, const PoseFramePtr& first, const PoseFramePtr& second,
+              Stamp now, RoleOutput& out) {
     last_answered_ = message.exchange;
-    send_whole(frame, message.exchange, now, out);
-    RelativePoseMessage pose;
-    pose.stamp = frame->stamp;
-    pose.frame_id = frame->frame_id;
-    pose.dependent_stamp = message.stamp;
-    pose.dependent = options_.peer;
-    pose.exchange = message.exchange;
-    pose.status = PoseStatus::kMalformed;
     Result<PreviewContent> content = decode_preview_content(message.data);
-    const std::string wrong =
-        content ? estimate(*frame, message, *content, pose) : content.reason();
-    if (!wrong.empty()) out.problems.push_back(options_.peer + ": " + wrong);
+    PoseFramePtr frame = first;
+    Attempt attempt = try_frame(*first, message, content);
+    if (second && second != first && attempt.shared < kEnoughShared) {
+      Attempt other = try_frame(*second, message, content);
+      if (other.shared > attempt.shared) {
+        attempt = std::move(other);
+        frame = second;
+      }
+    }
+    RelativePoseMessage& pose = attempt.pose;
+    remember(pose, message);
+    send_whole(frame, message.exchange, now, out);
+    if (!attempt.wrong.empty()) out.problems.push_back(options_.peer + ": " + attempt.wrong);
     if (content && content->known_peer_hash != camera_hash(frame->camera)) {
       ByteWriter writer;
       put_camera(writer, frame->camera);
@@ -116,9 +120,30 @@ class PreviewReference final : public ExchangeRole {
     out.decisions.push_back(std::move(sparse));
   }
 
+  struct Attempt {
+    RelativePoseMessage pose;
+    double shared = 0.0;  // of b's view; 0 without a pose
+    std::string wrong;    // with the message
+  };
+
+  Attempt try_frame(const PoseFrame& frame, const PreviewMessage& message,
+                    const Result<PreviewContent>& content) {
+    Attempt attempt;
+    RelativePoseMessage& pose = attempt.pose;
+    pose.stamp = frame.stamp;
+    pose.frame_id = frame.frame_id;
+    pose.dependent_stamp = message.stamp;
+    pose.dependent = options_.peer;
+    pose.exchange = message.exchange;
+    pose.status = PoseStatus::kMalformed;
+    attempt.wrong = content ? estimate(frame, message, *content, attempt) : content.reason();
+    return attempt;
+  }
+
   // Fills in the pose; empty, or what is wrong with the message.
   std::string estimate(const PoseFrame& frame, const PreviewMessage& message,
-                       const PreviewContent& content, RelativePoseMessage& pose) {
+                       const PreviewContent& content, Attempt& attempt) {
+    RelativePoseMessage& pose = attempt.pose;
     if (content.camera) peer_camera_ = *content.camera;
     if (!peer_camera_ || camera_hash(*peer_camera_) != content.camera_hash) {
       peer_camera_.reset();
@@ -141,9 +166,15 @@ class PreviewReference final : public ExchangeRole {
     if (found.sums.geometry > 0) {
       pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
     }
-    last_is_fresh_ = found.status == PoseStatus::kAccepted;
-    if (last_is_fresh_) last_accepted_ = KnownMotion{frames, found.motion};
+    if (found.status == PoseStatus::kAccepted) attempt.shared = found.b_in_a.shared();
     return {};
+  }
+
+  void remember(const RelativePoseMessage& pose, const PreviewMessage& message) {
+    last_is_fresh_ = pose.status == PoseStatus::kAccepted;
+    if (!last_is_fresh_) return;
+    const FrameNames frames{pose.stamp, pose.frame_id, message.stamp, message.frame_id};
+    last_accepted_ = KnownMotion{frames, pose.motion};
   }
 
   // What the prior proposes comes first: it knows how the robots moved since the last pose. That

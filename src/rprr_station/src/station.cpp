@@ -183,6 +183,7 @@ void Station::account(const ReceivedMessage& message, const EncodedFrame& encode
   frame.reference = encoded.reference;
   frame.reference_stamp = encoded.reference_stamp;
   frame.motion = encoded.motion;
+  frame.depth_rounded = encoded.depth_rounded;
   frame.report = cleaned(encoded.report);
   frame.blocks_total = BlockGrid(encoded.camera.width, encoded.camera.height).count();
   frame.blocks_sent = encoded.sparse ? encoded.mask.count() : frame.blocks_total;

@@ -102,6 +102,7 @@ rprr_msgs::PairStatistics statistics_message(const RebuiltFrame& frame,
   statistics.ms_reconstruct = static_cast<float>(frame.ms_reconstruct);
   statistics.energy_mj = static_cast<float>(frame.energy_mj);
   statistics.energy_independent_mj = static_cast<float>(frame.energy_independent_mj);
+  statistics.depth_rounded = frame.depth_rounded ? 1 : 0;
   statistics.share_received = static_cast<float>(frame.share_received);
   statistics.share_predicted = static_cast<float>(frame.share_predicted);
   return statistics;

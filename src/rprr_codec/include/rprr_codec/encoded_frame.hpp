@@ -49,6 +49,7 @@ struct EncodedFrame {
   Pose motion = Pose::Identity();  // sparse: M_ab, reference to this camera
   BlockMask mask;                  // sparse: the blocks sent; empty otherwise
   BlockMask depth_mask;            // sparse: of these, the ones with depth; empty: all of them
+  bool depth_rounded = false;      // to steps of inverse depth, since the radio was too narrow
   Bytes depth;                     // DHC-M payload of the whole frame or of depth_blocks()
   std::string colour_codec;        // name for ColourDecoder
   /// Detail: the image, or of a sparse frame the mask's blocks; empty where no block's colour is

@@ -9,6 +9,7 @@
 
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/colour_layers.hpp"
+#include "rprr_codec/depth_rounder.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 #include "rprr_codec/layer_ladder.hpp"
@@ -64,6 +65,9 @@ struct FrameCodecOptions {
   std::string base_codec;  // empty: colour_codec
   int base_reduction = 0;  // of sparse frames; 0: no base; 1, 2, 4, 8, 16
   int base_quality = 12;   // the codec's own scale
+  /// encode_within may round depth to steps of inverse depth, 1/metre, of up to this; 0: it stays
+  /// lossless. A Kinect's own step is 0.00285.
+  double depth_step = 0.0;
   UnsentFill fill = UnsentFill::kSmooth;
   bool measure_independent =
       false;  // also encode the whole frame, to report what it would have cost
@@ -87,7 +91,9 @@ class FrameEncoder {
   /// leave frame.mask.
   Result<bool> encode(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame);
   /// The same, or where that is longer than limit (bytes of the encoded frame; 0: none) the finest
-  /// coarser colours that are within it; the coarsest if none is, since depth stays lossless.
+  /// coarser colours that are within it. Colours are left a fifth of the frame at least: below,
+  /// they lose much and save little. Depth that is longer than the rest of the limit is rounded as
+  /// depth_step allows, no more than needed. What does not fit even so is longer than the limit.
   Result<bool> encode_within(const DepthFrame& depth, const cv::Mat& bgr, EncodedFrame& frame,
                              std::size_t limit);
 
@@ -107,6 +113,8 @@ class FrameEncoder {
   Result<bool> encode_as_asked(EncodedFrame& frame);
   Result<bool> plan(EncodedFrame& frame);
   Result<bool> coarsen(EncodedFrame& frame, std::size_t limit);
+  void encode_depth(const DepthFrame& depth, EncodedFrame& frame);
+  void round_depth(const DepthFrame& depth, EncodedFrame& frame, std::size_t limit);
   std::vector<LayerSettings> coarser_settings(const EncodedFrame& frame) const;
   Result<bool> search(const std::vector<LayerSettings>& rungs, bool finest, const Judge& good,
                       int& last, EncodedFrame& frame);
@@ -121,6 +129,7 @@ class FrameEncoder {
   int last_rung_;                       // where the search for the next frame's begins
   int last_coarse_rung_ = 0;            // likewise, below what the options ask for
   std::unique_ptr<DhcmEncoder> depth_;
+  DepthRounder rounder_;
   FrameDecoder own_decoder_;  // of payloads of our own making, in this process
 };
 

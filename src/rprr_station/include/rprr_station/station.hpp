@@ -67,9 +67,10 @@ struct RebuiltFrame {
   int blocks_sent = 0;
   int blocks_sent_without_depth = 0;
   int blocks_colour_only = 0;
-  BlockMask received_depth;      // sparse: blocks whose depth is exactly the sender's
-  EncodedSizes sizes;            // of the container
-  FrameReport report;            // what the sender said of itself: untrusted
+  BlockMask received_depth;    // sparse: blocks whose depth is the sender's, exactly unless rounded
+  bool depth_rounded = false;  // by the sender, to steps of inverse depth
+  EncodedSizes sizes;          // of the container
+  FrameReport report;          // what the sender said of itself: untrusted
   std::size_t bytes_masks = 0;   // both ways: the sender's report and the mask in the container
   std::size_t bytes_extras = 0;  // of the message: all but mask, depth and colour
   std::size_t bytes_total = 0;   // everything that this frame caused to be sent
