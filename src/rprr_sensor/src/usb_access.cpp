@@ -63,8 +63,8 @@ std::string why_not_open(const std::vector<UsbDevice>& devices, const std::strin
     if (device.accessible) continue;
     return "no permission for the camera at " + device.node + ": the udev rules of package " +
            rules +
-           " allow it for group plugdev; sudo adduser $USER plugdev, log in again, unplug " +
-           "the camera and plug it in again";
+           " give it; install that, join group plugdev (sudo adduser $USER plugdev, log in "
+           "again), unplug the camera and plug it in again";
   }
   std::string text = "the camera at " + devices.front().node + " is there but does not open: ";
   text += "another program may have it";
