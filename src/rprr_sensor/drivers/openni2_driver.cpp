@@ -41,6 +41,10 @@ class OpenNi2Device : public RgbdDevice, private openni::OpenNI::DeviceDisconnec
   OpenNi2Device() { openni::OpenNI::addDeviceDisconnectedListener(this); }
   ~OpenNi2Device() override {
     openni::OpenNI::removeDeviceDisconnectedListener(this);
+    // The file driver's thread looks at the list of streams without a lock, but seldom once both
+    // have stopped.
+    colour_.stop();
+    depth_.stop();
     colour_.destroy();  // before the device that they belong to
     depth_.destroy();
     device_.close();
@@ -66,7 +70,6 @@ class OpenNi2Device : public RgbdDevice, private openni::OpenNI::DeviceDisconnec
                           openni::PixelFormat format, const DeviceModes& modes);
   std::string choose_registration(RegistrationChoice choice);
   Result<std::optional<DeviceImage>> read(DeviceImage::Kind kind);
-  bool has_ended() const;
 
   std::string uri_;
   std::string serial_;
@@ -74,7 +77,6 @@ class OpenNi2Device : public RgbdDevice, private openni::OpenNI::DeviceDisconnec
   openni::VideoStream colour_;
   openni::VideoStream depth_;
   DepthFormat format_ = DepthFormat::registered_mm;
-  int last_frame_ = 0;  // number of the last depth image
   std::atomic<bool> gone_{false};
 };
 
@@ -142,7 +144,8 @@ std::string OpenNi2Device::start(const DeviceModes& modes) {
   if (fault.empty()) fault = choose_registration(modes.registration);
   if (!fault.empty()) return fault;
   if (auto* playback = device_.getPlaybackControl(); playback != nullptr && device_.isFile()) {
-    playback->setRepeatEnabled(false);
+    // At the end of a file that is not repeated its driver spins, and crashes when it is closed.
+    playback->setRepeatEnabled(true);
     playback->setSpeed(1.0f);
   } else {
     device_.setDepthColorSyncEnabled(true);  // where it can
@@ -154,15 +157,6 @@ std::string OpenNi2Device::start(const DeviceModes& modes) {
   return {};
 }
 
-bool OpenNi2Device::has_ended() const {
-  if (!device_.isFile()) return false;
-  int frames = 0;
-  int size = sizeof frames;
-  return depth_.getProperty(openni::STREAM_PROPERTY_NUMBER_OF_FRAMES, &frames, &size) ==
-             openni::STATUS_OK &&
-         last_frame_ >= frames;
-}
-
 Result<std::optional<DeviceImage>> OpenNi2Device::next(Duration timeout) {
   if (gone_) {
     return Error{"the camera" + (serial_.empty() ? "" : " " + serial_) +
@@ -172,10 +166,7 @@ Result<std::optional<DeviceImage>> OpenNi2Device::next(Duration timeout) {
   int ready = -1;
   const auto status = openni::OpenNI::waitForAnyStream(streams.data(), 2, &ready,
                                                        static_cast<int>(timeout / 1000000));
-  if (status == openni::STATUS_TIME_OUT) {
-    if (has_ended()) return Error{"the recording " + uri_ + " has ended; playing it again"};
-    return std::optional<DeviceImage>();
-  }
+  if (status == openni::STATUS_TIME_OUT) return std::optional<DeviceImage>();
   if (status != openni::STATUS_OK) return Error{"the camera does not deliver: " + last_words()};
   return read(ready == 0 ? DeviceImage::Kind::colour : DeviceImage::Kind::depth);
 }
@@ -187,7 +178,6 @@ Result<std::optional<DeviceImage>> OpenNi2Device::read(DeviceImage::Kind kind) {
   if (status != openni::STATUS_OK || !frame.isValid()) {
     return Error{"the camera gives no image: " + last_words()};
   }
-  if (!is_colour) last_frame_ = frame.getFrameIndex();
   DeviceImage image{kind, {}, static_cast<Duration>(frame.getTimestamp()) * 1000};
   // OpenNI2 keeps the pixels and hands them out as const; they are only read here.
   const cv::Mat pixels(frame.getHeight(), frame.getWidth(), is_colour ? CV_8UC3 : CV_16UC1,

@@ -9,7 +9,7 @@ namespace rprr {
 
 /// Cameras that OpenNI2 knows (PrimeSense, Asus Xtion and their kin), and its recordings. They are
 /// named by serial number, by URI, or by the path of an .oni file. A recording has the modes that
-/// it has, and its end is the loss of the device.
+/// it has, and begins again at its end.
 std::unique_ptr<RgbdDriver> make_openni2_driver();
 
 }  // namespace rprr

@@ -28,7 +28,8 @@ void CameraRelay::onInit() {
   connect<sensor_msgs::Image>(
       lines_[1], nh.param("rgb_topic", std::string("/camera/rgb/image_rect_color")), topics.colour);
   connect<sensor_msgs::Image>(
-      lines_[2], nh.param("depth_topic", std::string("/camera/depth_registered/image_rect")),
+      lines_[2],
+      nh.param("depth_topic", std::string("/camera/depth_registered/hw_registered/image_rect_raw")),
       topics.depth);
   timer_ =
       getNodeHandle().createWallTimer(ros::WallDuration(kLookPeriod), &CameraRelay::watch, this);

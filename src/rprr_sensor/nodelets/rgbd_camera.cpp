@@ -201,7 +201,7 @@ void RgbdCamera::opened(const DeviceSession& session) {
   prepare(*session.device());
 }
 
-bool RgbdCamera::prepare(const RgbdDevice& device) {
+void RgbdCamera::prepare(const RgbdDevice& device) {
   const bool own = device.depth_format() != DepthFormat::registered_mm;
   health_->show("registration", own ? "own" : "by the device");
   const DeviceModes& modes = settings_.session.modes;
@@ -210,10 +210,9 @@ bool RgbdCamera::prepare(const RgbdDevice& device) {
   processor_.reset();
   if (!processor) {
     health_->error("calibration", processor.reason());
-    return false;
+    return;
   }
   processor_.emplace(std::move(*processor));
-  return true;
 }
 
 void RgbdCamera::publish(const DevicePair& pair) {

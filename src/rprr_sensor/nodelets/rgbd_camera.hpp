@@ -56,7 +56,7 @@ class RgbdCamera : public nodelet::Nodelet {
   void run();
   void handle(SessionStep step, DeviceSession& session);
   void opened(const DeviceSession& session);
-  bool prepare(const RgbdDevice& device);
+  void prepare(const RgbdDevice& device);
   void publish(const DevicePair& pair);
   void show(const DeviceSession& session);
   bool has_listeners() const;

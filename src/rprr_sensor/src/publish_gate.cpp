@@ -14,7 +14,7 @@ void PublishGate::limit(int every_nth, double max_rate) {
   every_nth_ = std::max(every_nth, 1);
   period_ = max_rate > 0.0 ? from_seconds(1.0 / max_rate) : 0;
   skipped_ = every_nth_ - 1;
-  due_ = 0;
+  last_slot_ = -1;
 }
 
 void PublishGate::pause(bool paused) {
@@ -30,8 +30,8 @@ bool PublishGate::trigger() {
 }
 
 bool PublishGate::pass(Stamp stamp) {
-  if (stamp < last_) due_ = 0;
-  last_ = stamp;
+  if (stamp < last_seen_) last_slot_ = -1;
+  last_seen_ = stamp;
   if (paused_) {
     if (triggered_ == 0) return false;
     --triggered_;
@@ -44,10 +44,14 @@ bool PublishGate::pass(Stamp stamp) {
 
 bool PublishGate::on_time(Stamp stamp) {
   if (period_ == 0) return true;
-  // Frames jitter: one that comes slightly early is not left out, and the mean rate still holds.
+  const std::int64_t slot = stamp / period_;
+  // Frames jitter: one that comes slightly early takes the next period's place, so that a camera
+  // which is no faster than the rate loses nothing.
   const Duration slack = std::min(period_ / 4, from_seconds(0.005));
-  if (stamp < due_) return false;
-  due_ = std::max(due_ + period_, stamp + period_ - slack);
+  const bool early = slot == last_slot_ && stamp - last_passed_ >= period_ - slack;
+  if (slot <= last_slot_ && !early) return false;
+  last_slot_ = early ? slot + 1 : slot;
+  last_passed_ = stamp;
   return true;
 }
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A camera for OpenNI2 as its drivers make them: shows the images colour.png and depth.png of the
-// folder $RPRR_TEST_CAMERA while there is a file "plugged" in it.
+// folder $RPRR_TEST_CAMERA while there is a file "plugged" in it. What is set of a stream it notes
+// there, in files "set_<property>".
 #include <Driver/OniDriverAPI.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -78,6 +81,7 @@ class Stream : public StreamBase {
       case ONI_STREAM_PROPERTY_VIDEO_MODE:
         return give(mode_, data, size);
       case ONI_STREAM_PROPERTY_MIRRORING:
+      case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
       case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
         return give(OniBool{FALSE}, data, size);
       case ONI_STREAM_PROPERTY_STRIDE:  // recordings without these two are not played
@@ -93,8 +97,13 @@ class Stream : public StreamBase {
         return ONI_STATUS_NOT_SUPPORTED;
     }
   }
-  OniStatus setProperty(int property, const void* data, int /*size*/) override {
-    if (property != ONI_STREAM_PROPERTY_VIDEO_MODE) return ONI_STATUS_OK;
+  OniStatus setProperty(int property, const void* data, int size) override {
+    if (property != ONI_STREAM_PROPERTY_VIDEO_MODE) {
+      int value = 0;
+      std::memcpy(&value, data, std::min(sizeof value, static_cast<std::size_t>(size)));
+      std::ofstream(folder() + "/set_" + std::to_string(property)) << value;
+      return ONI_STATUS_OK;
+    }
     return std::memcmp(data, &mode_, sizeof mode_) == 0 ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
   }
 

@@ -6,7 +6,8 @@
 namespace rprr {
 
 /// Which of a camera's frames are published: every so many, at most so often, none while paused,
-/// but one for each trigger then.
+/// but one for each trigger then. With a rate, the first frame after every whole multiple of its
+/// period goes out, so that robots whose clocks agree choose frames of the same moments.
 class PublishGate {
  public:
   /// Every `every_nth` frame (at least 1), at most `max_rate` a second (0: no limit).
@@ -23,12 +24,13 @@ class PublishGate {
   bool on_time(Stamp stamp);
 
   int every_nth_ = 1;
-  Duration period_ = 0;  // least time between two frames, ns; 0: no limit
+  Duration period_ = 0;  // between two frames, ns; 0: no limit
   bool paused_ = false;
   int triggered_ = 0;
   int skipped_ = 0;
-  Stamp last_ = 0;  // frame seen
-  Stamp due_ = 0;   // when the next one may go
+  Stamp last_seen_ = 0;
+  Stamp last_passed_ = 0;
+  std::int64_t last_slot_ = -1;  // of the periods since the epoch, the last one used up
 };
 
 }  // namespace rprr
