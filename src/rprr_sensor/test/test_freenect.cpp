@@ -59,15 +59,19 @@ TEST_F(FreenectTest, RawRecordingIsRegisteredToColour) {
 
 TEST_F(FreenectTest, PausedItPublishesOneForEachTrigger) {
   const ChildProcess camera("camera", "_registration:=own _paused:=true", fakenect(900));
-  ASSERT_TRUE(pause(true));
-  ASSERT_TRUE(spin_until([&] { return trigger().empty(); })) << trigger();
-  ASSERT_TRUE(wait_for_frames(1));
-  EXPECT_FALSE(wait_for_frames(2, 0.5)) << "one, not more";
-  EXPECT_EQ(trigger(), "");
-  EXPECT_TRUE(wait_for_frames(2));
+  ASSERT_TRUE(ros::service::waitForService("/camera/pause", 20000));
+  EXPECT_FALSE(wait_for_frames(1, 0.5)) << "it was to begin paused";
   ASSERT_TRUE(pause(false));
-  EXPECT_TRUE(wait_for_frames(6));
+  ASSERT_TRUE(wait_for_frames(1)) << message_;  // now all three topics are connected
   EXPECT_NE(trigger(), "") << "not paused";
+  ASSERT_TRUE(pause(true));
+  spin_until([] { return false; }, 0.3);  // what was under way
+  const std::size_t before = topics_.frames();
+  EXPECT_EQ(trigger(), "");
+  EXPECT_TRUE(wait_for_frames(before + 1));
+  EXPECT_FALSE(wait_for_frames(before + 2, 0.5)) << "one, not more";
+  EXPECT_EQ(trigger(), "");
+  EXPECT_TRUE(wait_for_frames(before + 2));
 }
 
 TEST_F(FreenectTest, CalibrationThatIsSetIsUsedAndKept) {
