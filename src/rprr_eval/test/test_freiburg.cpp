@@ -5,13 +5,11 @@
 #include <ros/ros.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
+#include "launch_process.hpp"
 #include "pair_topics.hpp"
 #include "rprr_eval/metrics.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
@@ -25,35 +23,6 @@ namespace {
 
 constexpr double kUnit = 0.0002;  // metres per count, as the benchmark has it
 const std::vector<int> kWalk = {0, 1, 2, 3};
-
-/// roslaunch as a process of its own.
-class Launch {
- public:
-  explicit Launch(const std::string& arguments) {
-    const std::string command = "exec roslaunch " + arguments;
-    process_ = fork();
-    if (process_ == 0) {
-      setpgid(0, 0);
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-  }
-  ~Launch() {
-    kill(process_, SIGINT);
-    for (int i = 0; i < 1500; ++i) {
-      if (waitpid(process_, nullptr, WNOHANG) != 0) return;
-      ros::WallDuration(0.02).sleep();
-    }
-    ADD_FAILURE() << "roslaunch does not end";
-    kill(-process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-  Launch(const Launch&) = delete;
-  Launch& operator=(const Launch&) = delete;
-
- private:
-  pid_t process_ = -1;
-};
 
 /// The frame of the walk in the benchmark's depth unit.
 WalkFrame tum_frame(int number) {

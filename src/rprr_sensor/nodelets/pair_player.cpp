@@ -233,12 +233,17 @@ void PairPlayer::await_turn() {
     return;
   }
   if (last_stamp_.isZero()) return;
-  const ros::Time due = last_stamp_ + ros::Duration(1.0 / settings_.rate);
+  // Counted from when the last pair was due, not from when it came: so the mean rate is right.
+  // What is late by more than a pair is not caught up.
+  const ros::Duration period(1.0 / settings_.rate);
+  const ros::Duration late = last_stamp_ - due_;
+  if (due_.isZero() || late > period || late < ros::Duration(0)) due_ = last_stamp_;
+  due_ += period;
   wait_until(
       [&] {
         // Simulated time may jump back, when a bag begins again.
         const ros::Time now = ros::Time::now();
-        return now >= due || now < last_stamp_ - ros::Duration(1.0);
+        return now >= due_ || now < last_stamp_ - ros::Duration(1.0);
       },
       -1.0);
 }

@@ -86,6 +86,7 @@ class PairPlayer : public nodelet::Nodelet {
   int requested_ = 0;               // pairs asked for on ~next and not played yet
   ros::Time answered_;              // stamp of b's last frame that the station reported on
   ros::Time last_stamp_;            // of the last pair played
+  ros::Time due_;                   // when the last pair was to be played
   std::unique_ptr<Worker> worker_;  // last: stops before the rest goes
 };
 

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Starts the player itself (~command), since its recording has to be written first.
-#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rprr_msgs/PairStatistics.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
-#include <signal.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <functional>
-#include <map>
 #include <opencv2/core.hpp>
 
+#include "camera_topics.hpp"
+#include "child_process.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_sensor/random.hpp"
 #include "rprr_sensor/tum_writer.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
-#include "rprr_sensor_ros/frame_messages.hpp"
 #include "temporary_folder.hpp"
 
 namespace rprr {
@@ -45,56 +38,9 @@ RecordedFrame entry(int number, double unit) {
 }
 
 /// The player as a process of its own with private parameters "_name:=value".
-class Player {
+class Player : public ChildProcess {
  public:
-  explicit Player(const std::string& parameters) {
-    const std::string command = "exec " + ros::param::param<std::string>("~command", "false") +
-                                " __name:=pair_player " + parameters;
-    ros::param::del("/pair_player");  // what the player before it was told
-    process_ = fork();
-    if (process_ == 0) {
-      setpgid(0, 0);
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-  }
-  ~Player() {
-    kill(process_, SIGINT);
-    for (int i = 0; i < 300; ++i) {
-      if (waitpid(process_, nullptr, WNOHANG) != 0) return;
-      ros::WallDuration(0.02).sleep();
-    }
-    ADD_FAILURE() << "the player does not stop";
-    kill(-process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-  Player(const Player&) = delete;
-  Player& operator=(const Player&) = delete;
-
- private:
-  pid_t process_ = -1;
-};
-
-/// All that one robot's camera published, by stamp.
-struct Received {
-  std::map<ros::Time, sensor_msgs::Image> colour;
-  std::map<ros::Time, sensor_msgs::Image> depth;
-  std::map<ros::Time, sensor_msgs::CameraInfo> info;
-  std::map<ros::Time, geometry_msgs::PoseStamped> pose;
-  std::vector<ros::Subscriber> subscribers;
-
-  void listen(ros::NodeHandle& nh, const std::string& robot) {
-    const InputTopics topics = input_topics(robot);
-    subscribers = {nh.subscribe(topics.colour, 50, &Received::on_colour, this),
-                   nh.subscribe(topics.depth, 50, &Received::on_depth, this),
-                   nh.subscribe(topics.camera_info, 50, &Received::on_info, this),
-                   nh.subscribe(topics.pose, 50, &Received::on_pose, this)};
-  }
-  void on_colour(const sensor_msgs::Image& m) { colour[m.header.stamp] = m; }
-  void on_depth(const sensor_msgs::Image& m) { depth[m.header.stamp] = m; }
-  void on_info(const sensor_msgs::CameraInfo& m) { info[m.header.stamp] = m; }
-  void on_pose(const geometry_msgs::PoseStamped& m) { pose[m.header.stamp] = m; }
-  std::size_t frames() const { return std::min({colour.size(), depth.size(), info.size()}); }
+  explicit Player(const std::string& parameters) : ChildProcess("pair_player", parameters) {}
 };
 
 class PairPlayerTest : public testing::Test {
@@ -106,15 +52,6 @@ class PairPlayerTest : public testing::Test {
     statistics_ = nh_.advertise<rprr_msgs::PairStatistics>("/station/statistics", 10);
   }
   void on_done(const std_msgs::Bool& done) { done_ = done.data != 0 ? "yes" : "no"; }
-
-  bool spin_until(const std::function<bool()>& ready, double seconds = 20.0) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (ros::WallTime::now() < end && !ready()) {
-      ros::spinOnce();
-      ros::WallDuration(0.005).sleep();
-    }
-    return ready();
-  }
 
   std::string folder(double unit) {
     auto writer = TumWriter::create(temporary_.path("walk"), kCamera, unit, true, "test");
@@ -142,8 +79,8 @@ class PairPlayerTest : public testing::Test {
       ++number;
     }
   }
-  static void check_frame(const Received& camera, const ros::Time& stamp, int number, double unit,
-                          const std::string& frame_id) {
+  static void check_frame(const CameraTopics& camera, const ros::Time& stamp, int number,
+                          double unit, const std::string& frame_id) {
     SCOPED_TRACE("entry " + std::to_string(number) + " as " + frame_id);
     ASSERT_TRUE(camera.depth.count(stamp) && camera.colour.count(stamp) && camera.info.count(stamp))
         << "both robots have the same stamp";
@@ -167,8 +104,8 @@ class PairPlayerTest : public testing::Test {
 
   ros::NodeHandle nh_;
   TemporaryFolder temporary_;
-  Received a_;
-  Received b_;
+  CameraTopics a_;
+  CameraTopics b_;
   ros::Subscriber done_subscriber_;
   ros::Publisher statistics_;
   std::string done_;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "rprr_geometry_ros/health.hpp"
+
+namespace rprr {
+
+/// Gives the topics of somebody else's camera driver the names that RPRR wants. In the driver's
+/// nodelet manager messages pass as shared pointers, without a copy. Parameters:
+/// config/camera_relay.yaml.
+///
+/// Publishes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
+/// .../depth_registered/image_rect exactly as they come; a topic that is silent is reported.
+class CameraRelay : public nodelet::Nodelet {
+ private:
+  /// One topic, passed on.
+  struct Line {
+    ros::Subscriber from;
+    ros::Publisher to;
+    std::atomic<std::uint64_t> passed{0};
+    std::uint64_t seen = 0;  // of them, at the last look
+  };
+
+  void onInit() override;
+  template <typename Message>
+  void connect(Line& line, const std::string& from, const std::string& to);
+  void watch(const ros::WallTimerEvent& event);
+
+  std::unique_ptr<Health> health_;
+  std::array<Line, 3> lines_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace rprr
