@@ -17,13 +17,13 @@
 namespace rprr {
 
 /// Below, a chunk would be longer than what may go at once.
-constexpr double kLeastBandwidth = 4000.0;
+constexpr double kLeastBandwidth = 8000.0;
 
 struct SendQueueOptions {
   std::string robot;          // this one
   double bandwidth = 0.0;     // bytes a second on this robot's radio, all messages; 0: no limit;
                               // else at least kLeastBandwidth
-  double frame_rate = 2.0;    // frames a second for which colours are coarsened, if need be
+  double frame_rate = 1.0;    // frames a second for which colours are coarsened, if need be
   std::size_t waiting = 5;    // frames that wait to be encoded
   std::size_t in_flight = 3;  // frames that the station has not acknowledged; 0: any number
   /// A sparse frame waits so long for the receipt of its reference, or longer where receipts were
