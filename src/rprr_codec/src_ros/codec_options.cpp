@@ -16,31 +16,31 @@ std::string wrong_bandwidth(double bandwidth) {
 
 }  // namespace
 
-Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
+Result<FrameCodecOptions> read_codec_options(const Parameters& given) {
   FrameCodecOptions options;
-  options.colour_codec = nh.param("colour_codec", options.colour_codec);
-  options.colour_quality = nh.param("colour_quality", options.colour_quality);
-  options.view_quality = nh.param("view_quality", options.view_quality);
-  options.base_codec = nh.param("base_codec", options.base_codec);
-  options.base_reduction = nh.param("base_reduction", options.base_reduction);
-  options.base_quality = nh.param("base_quality", options.base_quality);
-  options.measure_independent = nh.param("measure_independent", options.measure_independent);
-  options.target_psnr = nh.param("target_psnr", options.target_psnr);
+  options.colour_codec = given.param("colour_codec", options.colour_codec);
+  options.colour_quality = given.param("colour_quality", options.colour_quality);
+  options.view_quality = given.param("view_quality", options.view_quality);
+  options.base_codec = given.param("base_codec", options.base_codec);
+  options.base_reduction = given.param("base_reduction", options.base_reduction);
+  options.base_quality = given.param("base_quality", options.base_quality);
+  options.measure_independent = given.param("measure_independent", options.measure_independent);
+  options.target_psnr = given.param("target_psnr", options.target_psnr);
 
-  options.depth_step = nh.param("depth_step", options.depth_step);
+  options.depth_step = given.param("depth_step", options.depth_step);
 
-  const Result<DhcmMode> mode =
-      dhcm_mode_from_name(nh.param<std::string>("depth_mode", dhcm_mode_name(options.depth_mode)));
+  const Result<DhcmMode> mode = dhcm_mode_from_name(
+      given.param<std::string>("depth_mode", dhcm_mode_name(options.depth_mode)));
   if (!mode) return Error{"~depth_mode: " + mode.reason()};
   options.depth_mode = *mode;
-  const auto named = nh.param<std::string>("objective", "fixed");
+  const auto named = given.param<std::string>("objective", "fixed");
   const std::optional<Objective> objective = objective_of(named);
   if (!objective) return Error{"~objective is '" + named + "', must be fixed, map or view"};
   options.objective = *objective;
-  const int budget = nh.param("byte_budget", 0);
+  const int budget = given.param("byte_budget", 0);
   if (budget < 0) return Error{"~byte_budget must be 0 (none) or bytes"};
   options.byte_budget = static_cast<std::size_t>(budget);
-  const auto fill = nh.param<std::string>("unsent_fill", "smooth");
+  const auto fill = given.param<std::string>("unsent_fill", "smooth");
   if (fill != "black" && fill != "smooth") {
     return Error{"~unsent_fill is '" + fill + "', must be black or smooth"};
   }
@@ -48,15 +48,15 @@ Result<FrameCodecOptions> read_codec_options(const ros::NodeHandle& nh) {
   return options;
 }
 
-Result<SendQueueOptions> read_send_options(const ros::NodeHandle& nh, const std::string& robot) {
+Result<SendQueueOptions> read_send_options(const Parameters& given, const std::string& robot) {
   SendQueueOptions options;
   options.robot = robot;
-  options.bandwidth = nh.param("bandwidth", options.bandwidth);
-  options.frame_rate = nh.param("frame_rate", options.frame_rate);
-  options.waiting = static_cast<std::size_t>(std::max(nh.param("queue_size", 5), 1));
-  options.in_flight = static_cast<std::size_t>(std::max(nh.param("in_flight", 3), 0));
+  options.bandwidth = given.param("bandwidth", options.bandwidth);
+  options.frame_rate = given.param("frame_rate", options.frame_rate);
+  options.waiting = static_cast<std::size_t>(std::max(given.param("queue_size", 5), 1));
+  options.in_flight = static_cast<std::size_t>(std::max(given.param("in_flight", 3), 0));
   options.receipt_timeout =
-      from_seconds(nh.param("receipt_timeout", to_seconds(options.receipt_timeout)));
+      from_seconds(given.param("receipt_timeout", to_seconds(options.receipt_timeout)));
   const std::string wrong = wrong_bandwidth(options.bandwidth);
   if (!wrong.empty()) return Error{wrong};
   return options;

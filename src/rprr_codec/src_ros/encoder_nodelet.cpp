@@ -62,10 +62,11 @@ class EncoderNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    robot_ = private_nh.param<std::string>("robot", "eyebug_a");
-    depth_unit_ = private_nh.param("depth_unit", 0.0002);
+    const Parameters parameters(private_nh);
+    robot_ = parameters.param<std::string>("robot", "eyebug_a");
+    depth_unit_ = parameters.param("depth_unit", 0.0002);
     health_ = std::make_unique<Health>(nh, private_nh, "encoder", robot_);
-    const std::string problem = make_encoder(private_nh);
+    const std::string problem = make_encoder(parameters);
     if (!problem.empty()) {
       NODELET_FATAL_STREAM(problem << "; nothing is encoded until this is mended and restarted");
       health_->error("parameters", problem);
@@ -86,11 +87,11 @@ class EncoderNodelet : public nodelet::Nodelet {
   }
 
   // Empty, or what is wrong.
-  std::string make_encoder(const ros::NodeHandle& private_nh) {
+  std::string make_encoder(const Parameters& parameters) {
     if (!(depth_unit_ > 0.0)) return "~depth_unit must be above 0 (metres per count)";
-    const Result<FrameCodecOptions> options = read_codec_options(private_nh);
+    const Result<FrameCodecOptions> options = read_codec_options(parameters);
     if (!options) return options.reason();
-    const Result<SendQueueOptions> sending = read_send_options(private_nh, robot_);
+    const Result<SendQueueOptions> sending = read_send_options(parameters, robot_);
     if (!sending) return sending.reason();
     Result<FrameEncoder> encoder = FrameEncoder::create(*options);
     if (!encoder) return encoder.reason();

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_geometry_ros/parameters.hpp"
 
 namespace rprr {
 namespace {
@@ -47,14 +48,13 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 
 RgbdSubscriber::RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh,
                                const std::string& robot, Health& health, Callback callback)
-    : health_(health),
-      callback_(std::move(callback)),
-      max_stamp_difference_(private_nh.param("max_stamp_difference", 0.02)),
-      depth_unit_(private_nh.param("depth_unit", 0.0002)),
-      transport_(nh) {
+    : health_(health), callback_(std::move(callback)), transport_(nh) {
+  const Parameters parameters(private_nh);
+  max_stamp_difference_ = parameters.param("max_stamp_difference", 0.02);
+  depth_unit_ = parameters.param("depth_unit", 0.0002);
   const std::string camera = "/" + robot + "/camera/";
   const image_transport::TransportHints hints(
-      private_nh.param<std::string>("image_transport", "raw"), ros::TransportHints().tcpNoDelay(),
+      parameters.param<std::string>("image_transport", "raw"), ros::TransportHints().tcpNoDelay(),
       private_nh);
   info_subscriber_ = nh.subscribe(camera + "rgb/camera_info", 5, &RgbdSubscriber::on_info, this);
   rgb_subscriber_ = transport_.subscribe(camera + "rgb/image_rect_color", 5,

@@ -14,16 +14,17 @@ namespace rprr {
 class DependentExchangeNodelet : public nodelet::Nodelet {
   void onInit() override {
     const ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const auto robot = private_nh.param<std::string>("robot", "eyebug_b");
-    const auto peer = private_nh.param<std::string>("peer", "eyebug_a");
+    const Parameters parameters(private_nh);
+    const auto robot = parameters.param<std::string>("robot", "eyebug_b");
+    const auto peer = parameters.param<std::string>("peer", "eyebug_a");
     std::map<std::string, std::unique_ptr<ExchangeRole>> roles;
-    if (uses_previews(private_nh)) {
-      PreviewOptions options = read_preview_options(private_nh, robot, peer);
+    if (uses_previews(parameters)) {
+      PreviewOptions options = read_preview_options(parameters, robot, peer);
       // A dependent that restarts must not count through numbers that its reference remembers.
       options.first_exchange = static_cast<std::uint32_t>(ros::WallTime::now().sec) << 8 | 1;
       roles[peer] = make_preview_dependent(options);
     } else {
-      roles[peer] = make_samples_dependent(read_samples_options(private_nh, robot, peer));
+      roles[peer] = make_samples_dependent(read_samples_options(parameters, robot, peer));
     }
     node_ = std::make_unique<ExchangeNode>(getNodeHandle(), private_nh, "dependent exchange", robot,
                                            std::move(roles), true,

@@ -8,15 +8,15 @@
 #include "transforms.hpp"
 
 namespace rprr {
-PoseBroadcaster::PoseBroadcaster(const ros::NodeHandle& private_nh, const tf2::BufferCore* buffer)
-    : publish_(private_nh.param("publish_tf", true)),
-      root_(publishes_root(private_nh)),
+PoseBroadcaster::PoseBroadcaster(const Parameters& parameters, const tf2::BufferCore* buffer)
+    : publish_(parameters.param("publish_tf", true)),
+      root_(publishes_root(parameters)),
       buffer_(buffer) {
 }
 
-bool PoseBroadcaster::publishes_root(const ros::NodeHandle& private_nh) {
-  return private_nh.param("publish_tf", true) &&
-         private_nh.param<std::string>("tf_target", "own") == "root";
+bool PoseBroadcaster::publishes_root(const Parameters& parameters) {
+  return parameters.param("publish_tf", true) &&
+         parameters.param<std::string>("tf_target", "own") == "root";
 }
 
 void PoseBroadcaster::send(const RelativePoseMessage& pose, Health& health) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/parameters.hpp"
 #include "rprr_pose/messages.hpp"
 
 namespace rprr {
@@ -18,8 +19,8 @@ namespace rprr {
 class PoseBroadcaster {
  public:
   /// buffer: needed, and must outlive this, if publishes_root().
-  PoseBroadcaster(const ros::NodeHandle& private_nh, const tf2::BufferCore* buffer);
-  static bool publishes_root(const ros::NodeHandle& private_nh);
+  PoseBroadcaster(const Parameters& parameters, const tf2::BufferCore* buffer);
+  static bool publishes_root(const Parameters& parameters);
   /// health hears of missing tf.
   void send(const RelativePoseMessage& pose, Health& health);
 

@@ -7,31 +7,31 @@
 
 namespace rprr {
 
-SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std::string& robot,
+SamplesOptions read_samples_options(const Parameters& parameters, const std::string& robot,
                                     const std::string& peer) {
   SamplesOptions options;
   options.self = robot;
   options.peer = peer;
   const auto seconds = [&](const char* name, Duration& value) {
-    value = from_seconds(private_nh.param(name, to_seconds(value)));
+    value = from_seconds(parameters.param(name, to_seconds(value)));
   };
-  private_nh.param("sample_count", options.sample_count, options.sample_count);
-  private_nh.param("max_iterations", options.max_iterations, options.max_iterations);
-  private_nh.param("converged_translation", options.converged_translation,
+  parameters.param("sample_count", options.sample_count, options.sample_count);
+  parameters.param("max_iterations", options.max_iterations, options.max_iterations);
+  parameters.param("converged_translation", options.converged_translation,
                    options.converged_translation);
-  private_nh.param("converged_rotation", options.converged_rotation, options.converged_rotation);
-  private_nh.param("resample", options.resample, options.resample);
-  private_nh.param("weigh_by_noise", options.by_noise, options.by_noise);
-  private_nh.param("local_start", options.local_start, options.local_start);
+  parameters.param("converged_rotation", options.converged_rotation, options.converged_rotation);
+  parameters.param("resample", options.resample, options.resample);
+  parameters.param("weigh_by_noise", options.by_noise, options.by_noise);
+  parameters.param("local_start", options.local_start, options.local_start);
   VerificationLimits& limits = options.limits;
-  private_nh.param("min_overlap", limits.min_overlap, limits.min_overlap);
-  private_nh.param("min_consistent", limits.min_consistent, limits.min_consistent);
-  private_nh.param("max_violating", limits.max_violating, limits.max_violating);
-  private_nh.param("max_residual_sigmas", limits.max_residual_sigmas, limits.max_residual_sigmas);
-  private_nh.param("min_matched", limits.min_matched, limits.min_matched);
-  private_nh.param("max_sigma_translation", limits.max_sigma_translation,
+  parameters.param("min_overlap", limits.min_overlap, limits.min_overlap);
+  parameters.param("min_consistent", limits.min_consistent, limits.min_consistent);
+  parameters.param("max_violating", limits.max_violating, limits.max_violating);
+  parameters.param("max_residual_sigmas", limits.max_residual_sigmas, limits.max_residual_sigmas);
+  parameters.param("min_matched", limits.min_matched, limits.min_matched);
+  parameters.param("max_sigma_translation", limits.max_sigma_translation,
                    limits.max_sigma_translation);
-  private_nh.param("max_sigma_rotation", limits.max_sigma_rotation, limits.max_sigma_rotation);
+  parameters.param("max_sigma_rotation", limits.max_sigma_rotation, limits.max_sigma_rotation);
   seconds("step_timeout", options.step_timeout);
   seconds("min_period", options.min_period);
   seconds("silence_timeout", options.silence_timeout);
@@ -39,27 +39,27 @@ SamplesOptions read_samples_options(const ros::NodeHandle& private_nh, const std
   return options;
 }
 
-PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std::string& robot,
+PreviewOptions read_preview_options(const Parameters& parameters, const std::string& robot,
                                     const std::string& peer) {
   PreviewOptions options;
   options.self = robot;
   options.peer = peer;
   const auto seconds = [&](const char* name, Duration& value) {
-    value = from_seconds(private_nh.param(name, to_seconds(value)));
+    value = from_seconds(parameters.param(name, to_seconds(value)));
   };
-  private_nh.param("preview_step", options.step, options.step);
-  private_nh.param("preview_lossless", options.lossless_depth, options.lossless_depth);
-  private_nh.param("preview_quality", options.colour_quality, options.colour_quality);
+  parameters.param("preview_step", options.step, options.step);
+  parameters.param("preview_lossless", options.lossless_depth, options.lossless_depth);
+  parameters.param("preview_quality", options.colour_quality, options.colour_quality);
   StartRange& range = options.search.range;
-  private_nh.param("search_yaw", range.yaw, range.yaw);
-  private_nh.param("search_pitch", range.pitch, range.pitch);
-  private_nh.param("search_roll", range.roll, range.roll);
+  parameters.param("search_yaw", range.yaw, range.yaw);
+  parameters.param("search_pitch", range.pitch, range.pitch);
+  parameters.param("search_roll", range.roll, range.roll);
   PreviewLimits& limits = options.search.limits;
-  private_nh.param("preview_min_overlap", limits.min_overlap, limits.min_overlap);
-  private_nh.param("preview_max_violating", limits.max_violating, limits.max_violating);
-  private_nh.param("preview_min_evidence", limits.min_evidence, limits.min_evidence);
-  private_nh.param("preview_min_margin", limits.min_margin, limits.min_margin);
-  private_nh.param("preview_warm_evidence", limits.warm_evidence, limits.warm_evidence);
+  parameters.param("preview_min_overlap", limits.min_overlap, limits.min_overlap);
+  parameters.param("preview_max_violating", limits.max_violating, limits.max_violating);
+  parameters.param("preview_min_evidence", limits.min_evidence, limits.min_evidence);
+  parameters.param("preview_min_margin", limits.min_margin, limits.min_margin);
+  parameters.param("preview_warm_evidence", limits.warm_evidence, limits.warm_evidence);
   seconds("step_timeout", options.step_timeout);
   seconds("min_period", options.min_period);
   seconds("reference_age", options.reference_age);
@@ -67,25 +67,25 @@ PreviewOptions read_preview_options(const ros::NodeHandle& private_nh, const std
   return options;
 }
 
-std::optional<TfPriorOptions> read_tf_prior_options(const ros::NodeHandle& private_nh,
+std::optional<TfPriorOptions> read_tf_prior_options(const Parameters& parameters,
                                                     const std::string& robot,
                                                     const std::string& peer) {
-  if (!private_nh.param("tf_prior", true)) return std::nullopt;
+  if (!parameters.param("tf_prior", true)) return std::nullopt;
   TfPriorOptions options;
   options.robot = robot;
   options.peer = peer;
-  const auto frame = [&private_nh](const char* name) {
-    const auto given = private_nh.param<std::string>(name, "auto");
+  const auto frame = [&parameters](const char* name) {
+    const auto given = parameters.param<std::string>(name, "auto");
     return given == "auto" ? std::string() : given;
   };
   options.fixed_frame = frame("tf_prior_fixed_frame");
   options.odom_frame = frame("tf_prior_odom_frame");
-  options.publishes_root = PoseBroadcaster::publishes_root(private_nh);
+  options.publishes_root = PoseBroadcaster::publishes_root(parameters);
   return options;
 }
 
-bool uses_previews(const ros::NodeHandle& private_nh) {
-  const auto protocol = private_nh.param<std::string>("protocol", "preview");
+bool uses_previews(const Parameters& parameters) {
+  const auto protocol = parameters.param<std::string>("protocol", "preview");
   if (protocol != "preview" && protocol != "samples") {
     ROS_ERROR_STREAM("~protocol is '" << protocol
                                       << "'; it must be preview or samples: using preview");

@@ -20,15 +20,17 @@ namespace rprr {
 class ReferenceExchangeNodelet : public nodelet::Nodelet {
   void onInit() override {
     const ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const auto robot = private_nh.param<std::string>("robot", "eyebug_a");
+    parameters_ = std::make_unique<Parameters>(private_nh);
+    const Parameters& parameters = *parameters_;
+    const auto robot = parameters.param<std::string>("robot", "eyebug_a");
     const std::vector<std::string> fallback{"eyebug_b"};
-    const auto peers = private_nh.param("peers", fallback);
-    const bool previews = uses_previews(private_nh);
-    if (PoseBroadcaster::publishes_root(private_nh) ||
-        (previews && private_nh.param("tf_prior", true))) {
+    const auto peers = parameters.param("peers", fallback);
+    const bool previews = uses_previews(parameters);
+    if (PoseBroadcaster::publishes_root(parameters) ||
+        (previews && parameters.param("tf_prior", true))) {
       listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
     }
-    broadcaster_ = std::make_unique<PoseBroadcaster>(private_nh, &buffer_);
+    broadcaster_ = std::make_unique<PoseBroadcaster>(parameters, &buffer_);
     std::map<std::string, std::unique_ptr<ExchangeRole>> roles;
     for (const std::string& peer : peers) {
       roles[peer] = previews ? preview_role(robot, peer) : samples_role(robot, peer);
@@ -39,15 +41,15 @@ class ReferenceExchangeNodelet : public nodelet::Nodelet {
   }
 
   std::unique_ptr<ExchangeRole> samples_role(const std::string& robot, const std::string& peer) {
-    SamplesOptions options = read_samples_options(getPrivateNodeHandle(), robot, peer);
+    SamplesOptions options = read_samples_options(*parameters_, robot, peer);
     // A reference that restarts must not count through numbers that its peers still remember.
     options.first_exchange = static_cast<std::uint32_t>(ros::WallTime::now().sec) << 8 | 1;
     return make_samples_reference(options);
   }
 
   std::unique_ptr<ExchangeRole> preview_role(const std::string& robot, const std::string& peer) {
-    const PreviewOptions options = read_preview_options(getPrivateNodeHandle(), robot, peer);
-    const auto tf = read_tf_prior_options(getPrivateNodeHandle(), robot, peer);
+    const PreviewOptions options = read_preview_options(*parameters_, robot, peer);
+    const auto tf = read_tf_prior_options(*parameters_, robot, peer);
     if (!tf) return make_preview_reference(options);
     auto& prior = priors_[peer] = std::make_unique<TfPrior>(buffer_, *tf);
     return make_preview_reference(
@@ -67,6 +69,7 @@ class ReferenceExchangeNodelet : public nodelet::Nodelet {
     if (!complaint.empty()) health.warn("tf prior of " + decision.peer, complaint);
   }
 
+  std::unique_ptr<Parameters> parameters_;
   tf2_ros::Buffer buffer_;  // stays empty without a listener
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::unique_ptr<PoseBroadcaster> broadcaster_;

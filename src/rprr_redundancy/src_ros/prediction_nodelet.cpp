@@ -19,6 +19,7 @@
 #include "rprr_geometry/preview.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/parameters.hpp"
 #include "rprr_geometry_ros/point_cloud.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_redundancy/decision.hpp"
@@ -45,14 +46,15 @@ class PredictionNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    robot_ = private_nh.param<std::string>("robot", "");
+    const Parameters parameters(private_nh);
+    robot_ = parameters.param<std::string>("robot", "");
     if (robot_.empty()) {
       NODELET_FATAL("~robot is not set: give the name of the robot that this runs on");
       return;
     }
-    dependents_ = private_nh.param("dependents", std::vector<std::string>());
-    const int frames_held = std::max(private_nh.param("frames_held", 30), 1);
-    const double wait_for_frame = private_nh.param("wait_for_frame", 0.5);
+    dependents_ = parameters.param("dependents", std::vector<std::string>());
+    const int frames_held = std::max(parameters.param("frames_held", 30), 1);
+    const double wait_for_frame = parameters.param("wait_for_frame", 0.5);
 
     health_ = std::make_unique<Health>(nh, private_nh, "prediction", robot_);
     const std::string prefix = "/" + robot_ + "/rprr/";

@@ -18,6 +18,7 @@
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/parameters.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/sparse_image.hpp"
@@ -38,18 +39,19 @@ class ValidationNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    robot_ = private_nh.param<std::string>("robot", "");
-    peer_ = private_nh.param<std::string>("peer", "");
+    const Parameters parameters(private_nh);
+    robot_ = parameters.param<std::string>("robot", "");
+    peer_ = parameters.param<std::string>("peer", "");
     if (robot_.empty() || peer_.empty() || robot_ == peer_) {
       NODELET_FATAL("~robot and ~peer must name this robot and the one whose frames it refers to");
       return;
     }
     OutgoingOptions options;
-    options.prediction_timeout = from_seconds(private_nh.param("prediction_timeout", 1.0));
+    options.prediction_timeout = from_seconds(parameters.param("prediction_timeout", 1.0));
     outgoing_ = std::make_unique<Outgoing>(robot_, options);
-    validator_ = Validator({std::max(private_nh.param("validation_min_pixels", 1), 1)});
-    const int frames_held = std::max(private_nh.param("frames_held", 30), 1);
-    const double wait_for_frame = private_nh.param("wait_for_frame", 0.5);
+    validator_ = Validator({std::max(parameters.param("validation_min_pixels", 1), 1)});
+    const int frames_held = std::max(parameters.param("frames_held", 30), 1);
+    const double wait_for_frame = parameters.param("wait_for_frame", 0.5);
 
     health_ = std::make_unique<Health>(nh, private_nh, "validation", robot_);
     advertise(nh);
