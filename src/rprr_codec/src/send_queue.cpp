@@ -67,7 +67,9 @@ std::vector<Stamp> SendQueue::offer(QueuedFrame frame, Stamp now) {
   }
   if (frame.sparse) {
     if (held_.size() < kRobotsHeld) held_[frame.reference];
-    awaited_.push_back({frame.reference_stamp, now});
+    if (!is_held(frame.reference, frame.reference_stamp)) {
+      awaited_.push_back({frame.reference_stamp, now});
+    }
     if (awaited_.size() > kAwaitedKept) awaited_.pop_front();
   }
   queue_.push_back({std::move(frame), now});

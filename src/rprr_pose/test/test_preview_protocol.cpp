@@ -103,9 +103,9 @@ TEST_F(PreviewProtocol, ARestartedReferenceIsToldTheCameraAgain) {
 
 TEST_F(PreviewProtocol, WithoutAnAnswerBGoesOutWhole) {
   dependent->offer(frame_b(), 0, at_b);
-  dependent->tick(from_seconds(0.4), at_b);
+  dependent->tick(from_seconds(0.9), at_b);
   EXPECT_TRUE(at_b.decisions.empty());
-  dependent->tick(from_seconds(0.6), at_b);
+  dependent->tick(from_seconds(1.1), at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
   EXPECT_FALSE(at_b.decisions[0].reason.empty());
