@@ -32,12 +32,20 @@ def make_recording(folder, frames=12, width=320, height=240):
 class Bench:
     def __init__(self, folder, recording, rate=4.0, seed=1, **options):
         self.processes = Processes(folder, seed, **options)
+        try:
+            self._begin(recording, rate)
+        except BaseException:
+            self.processes.stop()
+            raise
+
+    def _begin(self, recording, rate):
         self.processes.start()
         rospy.init_node("fault_bench", disable_signals=True, disable_rosout=True)
         self.cameras = Cameras(recording, rate)
         self.judge = Judge(self.cameras)
         self.statistics = []  # time, message; of b's frames
         self._diagnostics = []  # time, text
+        self._counts = {}  # of diagnostics: by node, what to number
         self._lock = threading.Lock()
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._on_diagnostics, queue_size=100)
         rospy.Subscriber("/station/statistics", PairStatistics, self._on_statistics,
@@ -84,6 +92,12 @@ class Bench:
         with self._lock:
             return [said for moment, said in self._diagnostics if moment > since and text in said]
 
+    def counts(self):
+        """Counters of /diagnostics as they are now: "<host> <node>: <key>" to number."""
+        with self._lock:
+            return {f"{node}: {what}": count for node, counts in self._counts.items()
+                    for what, count in counts.items()}
+
     def heard_since(self, since):
         with self._lock:
             return sorted({said for moment, said in self._diagnostics
@@ -97,6 +111,8 @@ class Bench:
                 self._diagnostics.append((now, f"{begin}: {status.message}"))
                 self._diagnostics += [(now, f"{begin}: {pair.key} = {pair.value}")
                                       for pair in status.values]
+                self._counts[begin] = {pair.key: int(pair.value) for pair in status.values
+                                       if pair.value.isdigit()}
             del self._diagnostics[:-20000]
 
     def _on_statistics(self, message):

@@ -175,7 +175,7 @@ class Processes:
         return left
 
     def stop(self):
-        for process in self.all():
+        for process in self.nodes.values():
             if process.alive():
                 process.child.send_signal(signal.SIGTERM)
         for process in self.all():

@@ -256,14 +256,15 @@ def end_on_signal(*_):
 
 def main():
     signal.signal(signal.SIGTERM, end_on_signal)
-    soak = Soak(parse())
+    soak, well = None, False
     try:
+        soak = Soak(parse())
         well = soak.run()
     except KeyboardInterrupt:
         print("interrupted")
-        well = False
     finally:
-        soak.bench.stop()
+        if soak is not None:
+            soak.bench.stop()
     sys.exit(0 if well else 1)
 
 

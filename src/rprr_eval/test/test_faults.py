@@ -50,8 +50,9 @@ class Faults(unittest.TestCase):
     def setUp(self):
         self.cameras, self.processes = self.bench.cameras, self.bench.processes
         now = time.monotonic()
-        self.assertIsNotNone(self.bench.seconds_until_rebuilt(now, 20), "no service before the fault")
-        self.begun = time.monotonic()
+        self.assertIsNotNone(self.bench.seconds_until_rebuilt(now, 20),
+                             "no service before the fault")
+        self.begun, self.counts = time.monotonic(), self.bench.counts()
 
     def tearDown(self):
         self.bench.radio()
@@ -82,9 +83,19 @@ class Faults(unittest.TestCase):
             before = self.memory.setdefault(process, now)
             self.assertLess(now - before, MORE_MEMORY_KB, f"{process.name} grew from {before} kB")
 
-    def expect_said(self, text):
-        self.assertTrue(wait_for(lambda: self.bench.said(text, self.begun), 5.0),
+    def expect_said(self, text, patience=5.0):
+        self.assertTrue(wait_for(lambda: self.bench.said(text, self.begun), patience),
                         f"/diagnostics did not say '{text}'\n" + self.said())
+
+    def expect_counted(self, what, text=""):
+        """/diagnostics counted it since the test began, and said so in words."""
+        def counted():
+            return any(count > self.counts.get(key, 0)
+                       for key, count in self.bench.counts().items() if what in key)
+        self.assertTrue(wait_for(counted, 5.0),
+                        f"/diagnostics did not count '{what}'\n" + self.said())
+        if text:
+            self.expect_said(text)
 
     def said(self):
         return "\n".join(line for line in self.bench.heard_since(self.begun)
@@ -109,17 +120,17 @@ class Faults(unittest.TestCase):
     def test_reference_robot_restarts(self):
         since = self.restart(A)
         self.expect_said("no answer from eyebug_a")
-        self.expect_said("no frame of 'eyebug_a'")
+        self.expect_counted("silent eyebug_a", "no frame of 'eyebug_a'")
         self.expect_service(since, "a restarted")
 
     def test_dependent_robot_restarts(self):
         since = self.restart(B)
-        self.expect_said("no frame of 'eyebug_b'")
+        self.expect_counted("silent eyebug_b", "no frame of 'eyebug_b'")
         self.expect_service(since, "b restarted")
 
     def test_station_restarts(self):
         since = self.restart("station")
-        self.expect_said("the station sends no receipts")
+        self.expect_counted("encoder: no receipts", "the station sends no receipts")
         self.expect_service(since, "the station restarted")
 
     def test_each_node_of_a_robot_restarts_alone(self):
@@ -139,33 +150,34 @@ class Faults(unittest.TestCase):
         self.bench.radio()
         since = time.monotonic()
         self.expect_said("no answer from eyebug_a")
-        self.expect_said("the station sends no receipts")
-        self.expect_said("no frame of 'eyebug_b'")
+        self.expect_counted("encoder: no receipts", "the station sends no receipts")
+        self.expect_counted("silent eyebug_b", "no frame of 'eyebug_b'")
         self.expect_service(since, "the radio was down")
 
     def test_messages_are_lost(self):
         self.bench.radio(lose=0.3)
         time.sleep(BAD_RADIO)
         self.bench.radio()
-        self.expect_service(time.monotonic(), "messages were lost")
+        since = time.monotonic()
+        self.expect_counted("dependent exchange: frames sent whole", "no answer from eyebug_a")
+        self.expect_service(since, "messages were lost")
 
     def test_only_references_are_lost(self):
         self.bench.radio(lose=1.0, only=f"{A}/rprr/encoded")
         time.sleep(OUTAGE)
         self.bench.radio()
         since = time.monotonic()
-        self.expect_said("did not acknowledge the frame of 'eyebug_a'")
+        self.expect_counted("reference not acknowledged", "did not acknowledge the frame of")
         self.expect_service(since, "a's frames were lost")
 
     def test_pieces_of_frames_are_lost(self):
         for robot in (A, B):
             self.bench.configure(f"/{robot}/rprr_encoder", bandwidth=60000.0)
         try:
-            self.bench.radio(lose=0.2, only="encoded")
-            time.sleep(OUTAGE)
+            self.bench.radio(lose=0.4, only="encoded")
+            self.expect_said("parts of a frame did not come", 15.0)
             self.bench.radio()
             since = time.monotonic()
-            self.expect_said("parts of a frame did not come")
             self.expect_service(since, "pieces of frames were lost")
         finally:
             for robot in (A, B):
@@ -182,7 +194,8 @@ class Faults(unittest.TestCase):
         time.sleep(BAD_RADIO)
         self.bench.radio()
         since = time.monotonic()
-        self.expect_said("damaged")
+        self.expect_counted("refused (times)", "damaged")
+        self.expect_counted("station: frame of eyebug_")
         self.expect_service(since, "messages were damaged")
 
     def test_only_poses_are_damaged(self):
@@ -190,7 +203,7 @@ class Faults(unittest.TestCase):
         time.sleep(2.0)
         self.bench.radio()
         since = time.monotonic()
-        self.expect_said("message of eyebug_a refused (times)")
+        self.expect_counted("message of eyebug_a refused", "damaged pose")
         self.expect_service(since, "poses were damaged")
 
     def test_everything_at_once(self):
@@ -229,7 +242,8 @@ class Faults(unittest.TestCase):
         end()
         self.bench.radio()
         since = time.monotonic()
-        self.expect_said("version")
+        self.expect_counted("message of eyebug_b refused", "preview message of an unknown version")
+        self.expect_counted("frame of eyebug_b", "encoded frame of an unknown version")
         self.expect_service(since, "b was of another version")
 
     def test_another_robot_of_the_same_name(self):
@@ -241,8 +255,9 @@ class Faults(unittest.TestCase):
         try:
             time.sleep(3.0)
             since = time.monotonic()
-            self.expect_said("more than one node (/fault_bench, /fault_relay)")
-            self.expect_said("two senders")
+            self.expect_counted("reference exchange: two senders",
+                                "more than one node (/fault_bench, /fault_relay)")
+            self.expect_counted("station: two senders")
             self.expect_service(since, "another robot called b is there still")
         finally:
             end()
@@ -261,12 +276,13 @@ class Faults(unittest.TestCase):
         time.sleep(3.0)
         self.cameras.offset[robot] = 0.0
         since = time.monotonic()
-        self.expect_said("a clock that was set")
+        self.expect_counted("stamps leap", "a clock that was set")
         self.expect_service(since, f"the clock of {robot} was off")
 
     def test_recording_starts_again(self):
         self.cameras.replay(2.0)
         since = time.monotonic()
+        self.expect_counted("stamps leap", "a recording that starts again")
         self.expect_service(since, "the same stamps came again, time went back")
         self.assertTrue(wait_for(lambda: not self.cameras.replaying(), 10))
         self.expect_service(time.monotonic(), "time went on")
@@ -280,7 +296,7 @@ class Faults(unittest.TestCase):
     def test_depth_without_readings(self):
         for robot in (A, B):
             since = self.show(robot, lambda bgr, depth: (bgr, numpy.zeros_like(depth)))
-            self.expect_said("has no reading at all")
+            self.expect_counted("depth empty", f"/{robot}/camera/depth_registered")
             self.expect_service(since, f"depth of {robot} was empty")
 
     def test_depth_of_nan(self):
@@ -288,13 +304,13 @@ class Faults(unittest.TestCase):
             return bgr, numpy.full(depth.shape, numpy.nan, numpy.float32)
         for robot in (A, B):
             since = self.show(robot, nan)
-            self.expect_said("has no reading at all")
+            self.expect_counted("depth empty", f"/{robot}/camera/depth_registered")
             self.expect_service(since, f"depth of {robot} was NaN")
 
     def test_black_images(self):
         for robot in (A, B):
             since = self.show(robot, lambda bgr, depth: (numpy.zeros_like(bgr), depth))
-            self.expect_said("last reason for a whole frame = pose rejected")
+            self.expect_counted("dependent exchange: frames sent whole", "pose rejected")
             self.expect_service(since, f"{robot} saw nothing but black")
 
 
