@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Seeds for the fuzzers, from synthetic frames:
 //   make_corpus FOLDER
-// writes FOLDER/decode, round_trip, mask, preview and container.
+// writes FOLDER/decode, round_trip, mask, preview, container, colour, chunks and station.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +11,7 @@
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
+#include "rprr_codec/frame_chunk.hpp"
 #include "rprr_geometry/block_mask_pair.hpp"
 #include "rprr_geometry/preview.hpp"
 
@@ -117,6 +118,73 @@ void colours(const fs::path& root) {
   }
 }
 
+Bytes small_frame(bool sparse) {
+  EncodedFrame frame;
+  frame.camera = Camera{64, 48, 60.0, 60.0, 32.0, 24.0};
+  frame.colour_codec = "webp";
+  frame.colour = {1, 2, 3};
+  const DepthFrame image = synthetic::kinect_like(64, 48);
+  if (!sparse) {
+    frame.depth = DhcmEncoder().encode(image);
+    return serialise(frame);
+  }
+  frame.sparse = true;
+  frame.reference = "a";
+  frame.reference_stamp = 1;
+  frame.mask = synthetic::some_blocks(BlockGrid(64, 48), 0.3);
+  frame.depth = DhcmEncoder().encode(image, frame.mask);
+  frame.base_codec = "webp";
+  frame.base = {4, 5, 6};
+  frame.base_reduction = 4;
+  return serialise(frame);
+}
+
+std::vector<Bytes> in_chunks(const Bytes& data, std::size_t piece) {
+  std::vector<Bytes> chunks;
+  const auto count = static_cast<std::uint16_t>((data.size() + piece - 1) / piece);
+  for (std::uint16_t i = 0; i < count; ++i) {
+    const ByteView rest = ByteView(data).from(i * piece);
+    chunks.push_back(serialise(FrameChunk{9, i, count, rest.first(std::min(piece, rest.size))}));
+  }
+  return chunks;
+}
+
+void chunks(const fs::path& root) {
+  Folder folder(root / "chunks");
+  Bytes seed;
+  for (const Bytes& chunk : in_chunks(Bytes(500, 7), 120)) {
+    seed.push_back(1);
+    seed.push_back(static_cast<std::uint8_t>(chunk.size() - 4));
+    seed.insert(seed.end(), chunk.begin(), chunk.end() - 4);
+  }
+  folder.add(seed);
+}
+
+void stations(const fs::path& root) {
+  Folder folder(root / "station");
+  const auto append = [](Bytes& seed, std::uint8_t head, const Bytes& message) {
+    const std::size_t length = message.size() - 4;
+    seed.push_back(head);
+    seed.push_back(static_cast<std::uint8_t>(length));
+    seed.push_back(static_cast<std::uint8_t>(length >> 8));
+    seed.insert(seed.end(), message.begin(), message.end() - 4);
+  };
+  constexpr std::uint8_t kA = 1 | 2 | 1 << 2;  // sealed, robot a, stamp 1
+  constexpr std::uint8_t kB = 1 | 1 << 2;
+  Bytes in_order;
+  append(in_order, kA, small_frame(false));
+  append(in_order, kB, small_frame(true));
+  folder.add(in_order);
+  Bytes waits;
+  append(waits, kB, small_frame(true));
+  append(waits, kA, small_frame(false));
+  folder.add(waits);
+  Bytes pieces;
+  for (const Bytes& chunk : in_chunks(small_frame(false), 700)) append(pieces, kA, chunk);
+  append(pieces, kB, small_frame(true));
+  folder.add(pieces);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -129,5 +197,7 @@ int main(int argc, char** argv) {
   previews(argv[1]);
   containers(argv[1]);
   colours(argv[1]);
+  chunks(argv[1]);
+  stations(argv[1]);
   return 0;
 }

@@ -18,6 +18,8 @@ constexpr std::size_t kLeastChunk = 1380;  // bytes: with its headers one Ethern
 constexpr std::size_t kMostChunk = 8192;
 constexpr double kSmoothing = 0.3;
 constexpr std::size_t kAwaitedKept = 16;
+constexpr double kQuick = 0.1;  // seconds for a receipt: the radio is far from full
+constexpr Duration kLostWhenQuick = from_seconds(2.0);
 constexpr Duration kLongestPatience = from_seconds(20.0);
 constexpr Duration kForgotten = from_seconds(60.0);  // a receipt that comes later tells nothing
 // Bytes of the serialised message around its data, and TCPROS's length.
@@ -135,8 +137,10 @@ Duration SendQueue::reference_patience() const {
 }
 
 Duration SendQueue::lost_after() const {
-  return std::clamp(from_seconds(2.5 * receipt_seconds_), options_.lost_after,
-                    std::max(kLongestPatience, options_.lost_after));
+  const bool quick = receipt_seconds_ > 0.0 && receipt_seconds_ < kQuick;
+  const Duration least =
+      quick ? std::min(options_.lost_after, kLostWhenQuick) : options_.lost_after;
+  return std::clamp(from_seconds(2.5 * receipt_seconds_), least, std::max(kLongestPatience, least));
 }
 
 // Also while a station that did send receipts is silent: the radio may be down, and what is handed

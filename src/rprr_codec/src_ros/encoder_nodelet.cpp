@@ -262,11 +262,18 @@ class EncoderNodelet : public nodelet::Nodelet {
   void tell_state() {
     RadioRoom room;
     double backlog = 0.0;
+    bool ceased = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       room = queue_->room(steady_now());
       backlog = queue_->backlog(steady_now());
+      ceased = queue_->receipts_ceased(steady_now());
       health_->show("frames repeated", std::to_string(queue_->repeated()));
+    }
+    if (ceased) {
+      health_->warn("no receipts",
+                    "the station sends no receipts on /station/receipts any more, so next to "
+                    "nothing is sent to it: look at the station and at the radio");
     }
     const bool same = room.ready == told_.ready && room.references == told_.references;
     const Stamp now = steady_now();

@@ -13,6 +13,7 @@
 #include "pair_topics.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 #include "rprr_geometry/wire.hpp"
+#include "rprr_pose_ros/pose_seal.hpp"
 
 namespace rprr {
 
@@ -89,6 +90,7 @@ class RadioAttacker {
         message.covariance.assign(std::numeric_limits<float>::infinity());
         break;
     }
+    if (kind != 3) message.checksum = checksum_of(message);
   }
   void spoil(rprr_msgs::Receipt& message, int kind) {
     message.robot = kind == 0 ? std::string(1000, '/') : message.robot;

@@ -12,6 +12,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kWaiting = 10;  // images of one kind that wait for the other
+constexpr double kLeap = 10.0;        // seconds that stamps may be ahead of what has passed
 
 using Images = std::deque<sensor_msgs::ImageConstPtr>;
 
@@ -98,6 +99,7 @@ void RgbdSubscriber::emit(const sensor_msgs::ImageConstPtr& rgb,
     const std::lock_guard<std::mutex> lock(mutex_);
     ++pairs_seen_;
     info = info_;
+    watch_stamp(rgb->header.stamp);
   }
   const std::string rgb_topic = rgb_subscriber_.getTopic();
   const std::string depth_topic = depth_subscriber_.getTopic();
@@ -145,6 +147,21 @@ void RgbdSubscriber::emit(const sensor_msgs::ImageConstPtr& rgb,
   frame->depth_message = depth;
   health_.count("frames");
   callback_(frame);
+}
+
+// With the mutex held. Two cameras whose clocks went apart pair frames of different instants.
+void RgbdSubscriber::watch_stamp(const ros::Time& stamp) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  const double step = (stamp - last_stamp_).toSec();
+  const bool leaps = step < 0.0 || step > (now - last_arrival_).toSec() + kLeap;
+  if (!last_stamp_.isZero() && leaps) {
+    health_.warn("stamps leap", "stamps on " + rgb_subscriber_.getTopic() + " went " +
+                                    (step < 0.0 ? "back" : "ahead") + " by " +
+                                    std::to_string(std::lround(std::abs(step))) +
+                                    " s: a recording that starts again, or a clock that was set");
+  }
+  last_stamp_ = stamp;
+  last_arrival_ = now;
 }
 
 void RgbdSubscriber::watch(const ros::WallTimerEvent&) {

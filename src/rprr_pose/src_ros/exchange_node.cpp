@@ -8,6 +8,7 @@
 
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_pose_ros/message_conversions.hpp"
+#include "rprr_pose_ros/pose_seal.hpp"
 
 namespace rprr {
 namespace {
@@ -42,6 +43,15 @@ std::size_t data_size(const rprr_msgs::RelativePose&) {
 template <typename Message>
 std::size_t data_size(const Message& message) {
   return message.data.size();
+}
+
+// The others are sealed inside.
+bool is_intact(const rprr_msgs::RelativePose& message) {
+  return message.checksum == checksum_of(message);
+}
+template <typename Message>
+bool is_intact(const Message&) {
+  return true;
 }
 
 }  // namespace
@@ -109,6 +119,12 @@ void ExchangeNode::on_message(const std::string& peer,
     return health_.warn("message too long", "a message of " + peer +
                                                 " is too long to be part of an "
                                                 "exchange; check who publishes as that robot");
+  }
+  if (!is_intact(*message)) {
+    return health_.warn("message of " + peer + " refused",
+                        peer +
+                            ": damaged pose; check the radio, that all robots run the same "
+                            "version and that nobody else publishes as that robot");
   }
   worker_->post([this, peer, message, age] {
     const PoseMessage received = from_ros(*message);

@@ -2,6 +2,7 @@
 #include "rprr_pose_ros/message_conversions.hpp"
 
 #include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_pose_ros/pose_seal.hpp"
 
 namespace rprr {
 
@@ -54,6 +55,7 @@ rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   out.reply_delay = message.reply_delay;
   out.reference_camera = message.reference_camera;
   out.bytes_spent = message.bytes_spent;
+  out.checksum = checksum_of(out);
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_pose_ros/pose_seal.hpp"
 #include "textured_views.hpp"
 
 namespace rprr {

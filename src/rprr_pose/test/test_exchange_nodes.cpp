@@ -203,6 +203,7 @@ TEST_F(ExchangeNodes, GarbageWhileNothingGoesOnIsHarmless) {
   flood(radio_b_update, *b_updates.messages.back());
   RelativePose pose = *poses.messages.back();
   pose.status = 200;
+  pose.checksum = checksum_of(pose);
   radio_pose.publish(pose);
   EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"eyebug_a"})) << heard_;
   EXPECT_TRUE(service_is_back()) << last_outcome();
@@ -235,6 +236,7 @@ TEST_F(ExchangeNodes, AForgedPoseThatIsNoPoseSendsBWhole) {
     pose.dependent_stamp = answer.header.stamp;
     pose.translation[1] = std::numeric_limits<double>::quiet_NaN();
     pose.covariance[3] = std::numeric_limits<float>::infinity();
+    pose.checksum = checksum_of(pose);
     radio_pose.publish(pose);
   };
   EXPECT_TRUE(exchange()) << last_outcome();

@@ -3,6 +3,7 @@
 #include <ros/serialization.h>
 
 #include "rprr_pose_ros/message_conversions.hpp"
+#include "rprr_pose_ros/pose_seal.hpp"
 #include "synthetic_views.hpp"
 
 namespace rprr {
@@ -42,6 +43,28 @@ TEST(MessageConversions, PosesComeBackAndUnknownStatusesAreMalformed) {
   rprr_msgs::RelativePose message = to_ros(pose);
   message.status = 200;
   EXPECT_EQ(from_ros(message).status, PoseStatus::kMalformed);
+}
+
+TEST(PoseSeal, HoldsOnTheWayAndBreaksWithAnyBitOfThePose) {
+  RelativePoseMessage pose;
+  pose.frame_id = "a_rgb_optical_frame";
+  pose.dependent = "b";
+  pose.motion = test_motion(0.4, 30.0);
+  pose.reference_camera = Bytes(20, 7);
+  rprr_msgs::RelativePose message = to_ros(pose);
+  message.header.seq = 1234;
+  EXPECT_EQ(message.checksum, checksum_of(message)) << "the publisher counts messages";
+  for (int i = 0; i < 3; ++i) {
+    rprr_msgs::RelativePose damaged = message;
+    damaged.translation[static_cast<std::size_t>(i)] += 1e-9;
+    EXPECT_NE(damaged.checksum, checksum_of(damaged));
+  }
+  rprr_msgs::RelativePose other = message;
+  other.status = 0;
+  EXPECT_NE(other.checksum, checksum_of(other));
+  other = message;
+  other.header.stamp += ros::Duration(0, 1);
+  EXPECT_NE(other.checksum, checksum_of(other));
 }
 
 }  // namespace

@@ -179,6 +179,7 @@ TEST_F(PreviewNodes, AForgedPoseThatIsNoPoseSendsBWhole) {
     pose.dependent_stamp = asked.header.stamp;
     pose.translation[1] = std::numeric_limits<double>::quiet_NaN();
     pose.covariance[3] = std::numeric_limits<float>::infinity();
+    pose.checksum = checksum_of(pose);
     radio_pose.publish(pose);
   };
   b.show(next_stamp());

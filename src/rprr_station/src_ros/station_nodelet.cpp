@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cmath>
 #include <deque>
 #include <map>
 #include <memory>
@@ -24,6 +25,7 @@
 #include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_station/scene_cloud.hpp"
+#include "rprr_station/silence_watch.hpp"
 #include "rprr_station/station.hpp"
 #include "station_messages.hpp"
 #include "station_parameters.hpp"
@@ -145,6 +147,7 @@ class StationNodelet : public nodelet::Nodelet {
       publish(station_->tick(now()));
       if (++ticks_ % kTicksOfReceipts == 0) {
         for (const auto& [name, robot] : robots_) publish_receipt(name, {});
+        watch_silence();
       }
     });
   }
@@ -167,8 +170,21 @@ class StationNodelet : public nodelet::Nodelet {
     received.data = ByteView(message->data);
     const Stamp last = station_->last(name);
     const StationOutput output = station_->receive(received, now());
-    if (station_->last(name) != last) publish_receipt(name, {});
+    if (station_->last(name) != last) {
+      silence_.heard(name, now());
+      publish_receipt(name, {});
+    }
     publish(output);
+  }
+
+  void watch_silence() {
+    for (const auto& [name, robot] : robots_) {
+      const auto seconds = silence_.silent_for(name, now());
+      if (!seconds) continue;
+      health_->warn("silent " + name, "no frame of '" + name + "' for " +
+                                          std::to_string(std::lround(*seconds)) +
+                                          " s: look at its nodes, its camera and its radio");
+    }
   }
 
   void publish(const StationOutput& output) {
@@ -250,10 +266,11 @@ class StationNodelet : public nodelet::Nodelet {
   SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
-  std::unique_ptr<Station> station_;  // the worker's, as are the next four
+  std::unique_ptr<Station> station_;  // the worker's, as are the next five
   unsigned ticks_ = 0;
   std::unique_ptr<SceneCloud> cloud_;
   Scene scene_;
+  SilenceWatch silence_;
   Stamp next_scene_ = 0;
   std::map<std::string, Robot> robots_;
   std::unique_ptr<Worker> worker_;

@@ -31,7 +31,8 @@ struct SendQueueOptions {
   Duration receipt_timeout = from_seconds(2.0);
   /// Without any receipt for so long, the station is taken to send none.
   Duration receipts_silence = from_seconds(3.0);
-  /// A frame without receipt for so long, or longer likewise, is not on its way any more.
+  /// A frame without receipt for so long, or longer likewise, is not on its way any more; two
+  /// seconds are enough where receipts come at once.
   Duration lost_after = from_seconds(4.0);
   Duration repeat_period = from_seconds(1.0);  // a frame is not repeated more often
 };
@@ -114,6 +115,8 @@ class SendQueue {
     return limited() || (delivery_rate_ > 0.0 && usual_bytes_ > kSlow * delivery_rate_);
   }
   std::size_t repeated() const { return repeated_; }  // frames, so far
+  /// The station did send receipts, and sends none any more.
+  bool receipts_ceased(Stamp now) const { return last_receipt_ && !hears_receipts(now); }
 
  private:
   struct Entry {

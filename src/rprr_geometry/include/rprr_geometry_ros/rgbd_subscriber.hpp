@@ -53,6 +53,7 @@ class RgbdSubscriber {
   void on_depth(const sensor_msgs::ImageConstPtr& image);
   void emit(const sensor_msgs::ImageConstPtr& rgb, const sensor_msgs::ImageConstPtr& depth);
   void watch(const ros::WallTimerEvent&);
+  void watch_stamp(const ros::Time& stamp);
 
   Health& health_;
   Callback callback_;
@@ -62,6 +63,8 @@ class RgbdSubscriber {
   std::deque<sensor_msgs::ImageConstPtr> waiting_rgb_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_depth_;
   sensor_msgs::CameraInfoConstPtr info_;
+  ros::Time last_stamp_;                                          // of a pair
+  ros::SteadyTime last_arrival_;                                  // of it
   std::uint64_t rgb_seen_ = 0, depth_seen_ = 0, pairs_seen_ = 0;  // since the last look
   image_transport::ImageTransport transport_;
   image_transport::Subscriber rgb_subscriber_;

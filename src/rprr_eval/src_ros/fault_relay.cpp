@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bad radio for tests: passes topics on under a prefix, and does to their messages what
+// FaultChannel can do, as set by dynamic_reconfigure (cfg/FaultRelay.cfg).
+//
+// Parameters: ~topics (list of names), ~prefix (default /relayed), ~seed (default 1). Topic /x
+// comes out as /relayed/x; whoever is to hear it through the relay remaps /x to that. Bits are
+// flipped in the data of RPRR's radio messages only: a wrong length of an array would cost the
+// receiver gigabytes inside of roscpp, which is not what is tested.
+#include <dynamic_reconfigure/server.h>
+#include <ros/ros.h>
+#include <rprr_eval/FaultRelayConfig.h>
+#include <rprr_msgs/BlockMask.h>
+#include <rprr_msgs/BlockPreview.h>
+#include <rprr_msgs/EncodedFrame.h>
+#include <rprr_msgs/PoseUpdate.h>
+#include <rprr_msgs/RelativePose.h>
+#include <rprr_msgs/SamplePoints.h>
+#include <std_msgs/String.h>
+#include <topic_tools/shape_shifter.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rprr_eval/fault_channel.hpp"
+
+namespace rprr {
+namespace {
+
+using rprr_eval::FaultRelayConfig;
+
+Stamp steady_now() {
+  return static_cast<Stamp>(ros::SteadyTime::now().toNSec());
+}
+
+// The bytes of data, which come last in these messages.
+template <typename Message>
+bool find_data(const topic_tools::ShapeShifter& shape, ChannelMessage& message) {
+  if (shape.getDataType() != ros::message_traits::datatype<Message>()) return false;
+  message.flip_count = shape.instantiate<Message>()->data.size();
+  message.flip_from = message.bytes.size() - message.flip_count;
+  return true;
+}
+
+// A pose has plain fields: from the status on, up to the length of the camera.
+bool find_pose(const topic_tools::ShapeShifter& shape, ChannelMessage& message) {
+  using Pose = rprr_msgs::RelativePose;
+  if (shape.getDataType() != ros::message_traits::datatype<Pose>()) return false;
+  const auto pose = shape.instantiate<Pose>();
+  message.flip_from = ros::serialization::serializationLength(pose->header) + sizeof(double) + 4 +
+                      pose->dependent.size() + sizeof(pose->exchange);
+  message.flip_count = 1 + 7 * sizeof(double) + 21 * sizeof(float);
+  return true;
+}
+
+ChannelMessage to_channel_message(const topic_tools::ShapeShifter& shape) {
+  ChannelMessage message;
+  message.bytes.resize(shape.size());
+  ros::serialization::OStream stream(message.bytes.data(), shape.size());
+  shape.write(stream);
+  find_data<rprr_msgs::EncodedFrame>(shape, message) ||
+      find_data<rprr_msgs::BlockPreview>(shape, message) ||
+      find_data<rprr_msgs::BlockMask>(shape, message) ||
+      find_data<rprr_msgs::SamplePoints>(shape, message) ||
+      find_data<rprr_msgs::PoseUpdate>(shape, message) || find_pose(shape, message);
+  return message;
+}
+
+class FaultRelay {
+ public:
+  FaultRelay() {
+    const auto topics = private_nh_.param("topics", std::vector<std::string>());
+    const std::string prefix = private_nh_.param<std::string>("prefix", "/relayed");
+    const int seed = private_nh_.param("seed", 1);
+    for (const std::string& topic : topics) {
+      const auto number = static_cast<std::uint32_t>(links_.size());
+      links_.push_back(std::make_unique<Link>(static_cast<std::uint32_t>(seed) + number));
+      Link& link = *links_.back();
+      link.topic = topic;
+      link.out = prefix + topic;
+      link.subscriber = nh_.subscribe<topic_tools::ShapeShifter>(
+          topic, 100,
+          [this, &link](const topic_tools::ShapeShifter::ConstPtr& shape) { pass(link, *shape); },
+          ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+    }
+    server_.setCallback([this](FaultRelayConfig& config, std::uint32_t) { on_config(config); });
+    timer_ = nh_.createWallTimer(ros::WallDuration(0.005),
+                                 [this](const ros::WallTimerEvent&) { send_due(); });
+    report_ = nh_.createWallTimer(ros::WallDuration(1.0),
+                                  [this](const ros::WallTimerEvent&) { report(); });
+  }
+
+ private:
+  struct Link {
+    explicit Link(std::uint32_t seed) : channel(seed) {}
+    std::string topic, out;
+    FaultChannel channel;
+    ros::Subscriber subscriber;
+    ros::Publisher publisher;
+    topic_tools::ShapeShifter shape;  // of the messages that pass
+  };
+
+  void on_config(const FaultRelayConfig& config) {
+    Faults faults;
+    faults.lose = config.lose;
+    faults.duplicate = config.duplicate;
+    faults.reorder = config.reorder;
+    faults.corrupt = config.corrupt;
+    faults.delay = from_seconds(config.delay);
+    faults.late = from_seconds(config.late);
+    faults.down = config.down;
+    for (const auto& link : links_) {
+      const bool meant = link->topic.find(config.only) != std::string::npos;
+      link->channel.set(meant ? faults : Faults());
+    }
+  }
+
+  void pass(Link& link, const topic_tools::ShapeShifter& shape) {
+    if (!link.publisher) {
+      // What it carries is known only now; those who listen need a moment to connect.
+      link.publisher = shape.advertise(nh_, link.out, 100);
+      link.shape.morph(shape.getMD5Sum(), shape.getDataType(), shape.getMessageDefinition(), "");
+    }
+    link.channel.add(to_channel_message(shape), steady_now());
+    send_due(link);
+  }
+
+  void send_due() {
+    for (const auto& link : links_) send_due(*link);
+  }
+  static void send_due(Link& link) {
+    for (Bytes& bytes : link.channel.due(steady_now())) {
+      ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+      link.shape.read(stream);
+      link.publisher.publish(link.shape);
+    }
+  }
+
+  void report() {
+    std_msgs::String text;
+    for (const auto& link : links_) {
+      const FaultChannel::Counts& counts = link->channel.counts();
+      text.data += link->topic + " came " + std::to_string(counts.came) + " lost " +
+                   std::to_string(counts.lost) + " duplicated " +
+                   std::to_string(counts.duplicated) + " reordered " +
+                   std::to_string(counts.reordered) + " corrupted " +
+                   std::to_string(counts.corrupted) + "\n";
+    }
+    counts_.publish(text);
+  }
+
+  ros::NodeHandle nh_;
+  ros::NodeHandle private_nh_{"~"};
+  ros::Publisher counts_ = private_nh_.advertise<std_msgs::String>("counts", 1, true);
+  std::vector<std::unique_ptr<Link>> links_;
+  dynamic_reconfigure::Server<FaultRelayConfig> server_;
+  ros::WallTimer timer_, report_;
+};
+
+}  // namespace
+}  // namespace rprr
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "fault_relay");
+  rprr::FaultRelay relay;
+  ros::spin();
+  return 0;
+}
