@@ -11,9 +11,9 @@
 namespace rprr {
 namespace {
 
-constexpr std::size_t kStampsHeld = 64;   // of a robot, as a receipt says; the station holds a few
-constexpr std::size_t kRobotsHeld = 32;   // references of this robot
-constexpr std::size_t kFramesKept = 2;    // whole ones, to be repeated
+constexpr std::size_t kStampsHeld = 64;    // of a robot, as a receipt says; the station holds a few
+constexpr std::size_t kRobotsHeld = 32;    // references of this robot
+constexpr std::size_t kFramesKept = 2;     // whole ones, to be repeated
 constexpr std::size_t kLeastChunk = 1380;  // bytes: with its headers one Ethernet frame
 constexpr std::size_t kMostChunk = 8192;
 constexpr double kSmoothing = 0.3;
@@ -150,7 +150,8 @@ bool SendQueue::window_is_full(Stamp now) const {
   const Duration lost = lost_after();
   const auto under_way = std::count_if(in_flight_.begin(), in_flight_.end(),
                                        [&](const Sent& sent) { return now - sent.at <= lost; });
-  const std::size_t window = is_narrow() || !(delivery_rate_ > 0.0) || !hears_receipts(now) ? 1 : options_.in_flight;
+  const std::size_t window =
+      is_narrow() || !(delivery_rate_ > 0.0) || !hears_receipts(now) ? 1 : options_.in_flight;
   return static_cast<std::size_t>(under_way) >= window;
 }
 
