@@ -93,7 +93,7 @@ void SendQueue::receipt(const std::string& robot, const std::vector<Stamp>& held
   const std::size_t count = std::min(held.size(), kStampsHeld);
   known->second.assign(held.end() - static_cast<std::ptrdiff_t>(count), held.end());
   if (robot != options_.robot) return learn_wait(known->second, now);
-  acknowledge(last, known->second, now);
+  if (options_.receipt_timeout > 0) acknowledge(last, known->second, now);
   for (std::size_t i = 0; i < std::min(repeat_stamps.size(), kFramesKept); ++i) {
     repeat(repeat_stamps[i], now);
   }

@@ -372,6 +372,23 @@ TEST(SendQueue, WithoutReceiptsWhatWasSentCanBeReferredTo) {
   EXPECT_EQ(queue.room(kStart).references, (std::vector<Stamp>{2, 3}));
 }
 
+TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
+  SendQueueOptions options = options_of(0.0);
+  options.receipt_timeout = 0;
+  SendQueue queue(options);
+  for (Stamp stamp = 1; stamp <= 20; ++stamp) {
+    const Stamp now = kStart + from_seconds(2.0 * static_cast<double>(stamp));
+    queue.offer(whole(stamp), now);
+    queue.offer(sparse(100 + stamp, 7), now);
+    const auto sent = pump(queue, now, 40000);
+    ASSERT_EQ(sent.size(), 2u);
+    EXPECT_EQ(sent[1].data[0], 1) << "sparse as it was";
+    queue.receipt("b", {stamp}, {}, stamp, now + from_seconds(1.9));  // slow ones
+    EXPECT_TRUE(queue.room(now + from_seconds(1.9)).ready);
+  }
+  EXPECT_FALSE(queue.is_narrow());
+}
+
 TEST(SendQueue, ReceiptsOfAnybodyAndOfAnyLengthTakeNoMemory) {
   SendQueue queue(options_of(0.0));
   const std::vector<Stamp> many(100000, 42);
