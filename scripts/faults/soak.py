@@ -147,6 +147,8 @@ class Soak:
             print("the pair never worked; logs are in", self.arguments.output)
             return False
         self.watch = Watch(self.bench.processes)
+        print("of b's views: rebuilt from a's, whole, wrong, PSNR in dB and latency in ms; back: "
+              "the\nlongest until service was back so far; MB and files: of all processes together")
         print(f"{'minute':>6} {'faults':>6} {'back s':>7} {'rebuilt':>8} {'whole':>6} {'wrong':>6} "
               f"{'PSNR':>5} {'least':>5} {'ms':>6} {'95%':>6} {'MB':>6} {'files':>6}", flush=True)
         start = time.monotonic()
@@ -221,8 +223,8 @@ class Soak:
         return not problems
 
     def print_lives(self):
-        print(f"{'process, of its longest life':40} {'MB first':>9} {'last':>7} {'files first':>12} "
-              f"{'last':>5} {'lives':>6}")
+        print(f"{'process, of its longest life':40} {'MB first':>9} {'last':>7} "
+              f"{'files first':>12} {'last':>5} {'lives':>6}")
         for name in sorted({life.name for life in self.watch.lives}):
             lives = [life for life in self.watch.lives if life.name == name]
             longest = max((life for life in lives if life.first), default=None,
