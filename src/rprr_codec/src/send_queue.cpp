@@ -20,6 +20,7 @@ constexpr double kSmoothing = 0.3;
 constexpr std::size_t kAwaitedKept = 16;
 constexpr double kQuick = 0.1;  // seconds for a receipt: the radio is far from full
 constexpr Duration kLostWhenQuick = from_seconds(2.0);
+constexpr Duration kLostInSilence = from_seconds(8.0);
 constexpr Duration kLongestPatience = from_seconds(20.0);
 constexpr Duration kForgotten = from_seconds(60.0);  // a receipt that comes later tells nothing
 // Bytes of the serialised message around its data, and TCPROS's length.
@@ -55,17 +56,12 @@ void SendQueue::set_rate(double bandwidth, double frame_rate) {
 
 std::vector<Stamp> SendQueue::offer(QueuedFrame frame, Stamp now) {
   std::vector<Stamp> dropped;
-  const auto drop = [&](auto entry) {
-    dropped.push_back(entry->frame.stamp);
-    queue_.erase(entry);
-  };
-  if (is_narrow()) {
-    const auto older = std::find_if(queue_.begin(), queue_.end(), [&](const Entry& entry) {
-      return entry.frame.sparse == frame.sparse;
-    });
-    if (older != queue_.end()) drop(older);
-  } else if (queue_.size() >= options_.waiting) {
-    drop(queue_.begin());
+  const bool newest_only = is_narrow() || receipts_ceased(now);
+  for (auto entry = queue_.begin(); entry != queue_.end();) {
+    const bool gives_way =
+        newest_only ? entry->frame.sparse == frame.sparse : queue_.size() >= options_.waiting;
+    if (gives_way) dropped.push_back(entry->frame.stamp);
+    entry = gives_way ? queue_.erase(entry) : std::next(entry);
   }
   if (frame.sparse) {
     if (held_.size() < kRobotsHeld) held_[frame.reference];
@@ -147,7 +143,7 @@ Duration SendQueue::lost_after() const {
 // over then comes out late and all at once.
 bool SendQueue::window_is_full(Stamp now) const {
   if (options_.in_flight == 0 || options_.receipt_timeout == 0 || !last_receipt_) return false;
-  const Duration lost = lost_after();
+  const Duration lost = hears_receipts(now) ? lost_after() : std::max(lost_after(), kLostInSilence);
   const auto under_way = std::count_if(in_flight_.begin(), in_flight_.end(),
                                        [&](const Sent& sent) { return now - sent.at <= lost; });
   const std::size_t window =

@@ -116,7 +116,9 @@ class SendQueue {
   }
   std::size_t repeated() const { return repeated_; }  // frames, so far
   /// The station did send receipts, and sends none any more.
-  bool receipts_ceased(Stamp now) const { return last_receipt_ && !hears_receipts(now); }
+  bool receipts_ceased(Stamp now) const {
+    return options_.receipt_timeout > 0 && last_receipt_ && !hears_receipts(now);
+  }
 
  private:
   struct Entry {
