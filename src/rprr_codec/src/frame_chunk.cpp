@@ -9,6 +9,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kCompleteKept = 8;
+constexpr Duration kPatience = from_seconds(3.0);  // chunks follow each other much faster
 
 }  // namespace
 
@@ -51,12 +52,13 @@ FrameAssembler::FrameAssembler(std::size_t largest_frame, std::size_t at_once)
 
 std::optional<FrameAssembler::Frame> FrameAssembler::add(Stamp stamp, const std::string& frame_id,
                                                          const FrameChunk& chunk,
-                                                         std::size_t message_bytes) {
+                                                         std::size_t message_bytes, Stamp now) {
   const auto done = std::make_pair(stamp, chunk.frame);
   if (std::find(complete_.begin(), complete_.end(), done) != complete_.end()) return {};
   const auto partial = find_or_begin(stamp, chunk);
   Bytes& place = partial->pieces[chunk.index];
   partial->frame.message_bytes += message_bytes;
+  partial->touched = now;
   if (!place.empty()) return {};  // repeated
   place.assign(chunk.piece.data, chunk.piece.data + chunk.piece.size);
   partial->bytes += chunk.piece.size;
@@ -76,6 +78,13 @@ std::optional<FrameAssembler::Frame> FrameAssembler::add(Stamp stamp, const std:
     whole.frame.data.insert(whole.frame.data.end(), piece.begin(), piece.end());
   }
   return std::move(whole.frame);
+}
+
+void FrameAssembler::expire(Stamp now) {
+  const auto is_old = [now](const Partial& partial) { return now - partial.touched > kPatience; };
+  const auto kept = std::remove_if(partial_.begin(), partial_.end(), is_old);
+  incomplete_ += static_cast<std::size_t>(partial_.end() - kept);
+  partial_.erase(kept, partial_.end());
 }
 
 std::deque<FrameAssembler::Partial>::iterator FrameAssembler::find_or_begin(

@@ -115,6 +115,19 @@ TEST(FrameAssembler, LostChunksCostTheirFrameAndNoMemory) {
   EXPECT_EQ(frame->data, data);
 }
 
+TEST(FrameAssembler, GivesUpFramesOfWhichNothingMoreComes) {
+  FrameAssembler assembler;
+  const std::vector<Bytes> chunks = in_chunks(some_bytes(3000, 1), 1, 1000);
+  const Stamp start = from_seconds(50.0);
+  assembler.add(1, "", *parse_chunk(chunks[0]), 1, start);
+  assembler.add(1, "", *parse_chunk(chunks[1]), 1, start + from_seconds(2.0));
+  assembler.expire(start + from_seconds(4.0));
+  EXPECT_EQ(assembler.incomplete(), 0u) << "something came not long ago";
+  assembler.expire(start + from_seconds(6.0));
+  EXPECT_EQ(assembler.incomplete(), 1u);
+  EXPECT_FALSE(assembler.add(1, "", *parse_chunk(chunks[2]), 1, start + from_seconds(6.0)));
+}
+
 TEST(FrameAssembler, ChunksThatContradictEachOtherMakeNothing) {
   FrameAssembler assembler;
   const std::vector<Bytes> three = in_chunks(some_bytes(3000, 1), 1, 1000);

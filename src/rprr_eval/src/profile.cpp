@@ -39,6 +39,12 @@ void read_samples(const YAML::Node& file, SamplesOptions& pose) {
   read(file, "max_sigma_rotation", pose.limits.max_sigma_rotation);
 }
 
+void read_seconds(const YAML::Node& file, const char* key, Duration& value) {
+  double seconds = to_seconds(value);
+  read(file, key, seconds);
+  value = from_seconds(seconds);
+}
+
 void read_preview(const YAML::Node& file, PreviewOptions& pose) {
   read(file, "preview_step", pose.step);
   read(file, "preview_lossless", pose.lossless_depth);
@@ -52,6 +58,7 @@ void read_preview(const YAML::Node& file, PreviewOptions& pose) {
   read(file, "preview_min_evidence", limits.min_evidence);
   read(file, "preview_min_margin", limits.min_margin);
   read(file, "preview_warm_evidence", limits.warm_evidence);
+  read_seconds(file, "reference_age", pose.reference_age);
 }
 
 // Empty, or why a word is none of the two that a key knows.
@@ -100,6 +107,8 @@ std::string read_rest(const YAML::Node& file, Profile& profile) {
   read(file, "base_quality", profile.codec.base_quality);
   read(file, "byte_budget", profile.codec.byte_budget);
   read(file, "target_psnr", profile.codec.target_psnr);
+  read(file, "in_flight", profile.sending.in_flight);
+  read_seconds(file, "receipt_timeout", profile.sending.receipt_timeout);
   read(file, "edge_margin", profile.station.stitch.edge_margin);
   read(file, "align", profile.station.synthesis.align);
   std::string wrong =

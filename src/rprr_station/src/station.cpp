@@ -79,17 +79,20 @@ void Station::receive_chunk(const ReceivedMessage& message, Stamp now, StationOu
   }
   FrameAssembler& chunks = robot->second.chunks;
   const std::size_t bytes = encoded_message_bytes(message.frame_id.size(), message.data.size);
-  const auto frame = chunks.add(message.stamp, message.frame_id, *chunk, bytes);
-  if (chunks.incomplete() != robot->second.incomplete) {
-    robot->second.incomplete = chunks.incomplete();
-    output.errors.push_back({message.robot, message.stamp, "parts of a frame did not come"});
-  }
+  const auto frame = chunks.add(message.stamp, message.frame_id, *chunk, bytes, now);
+  report_incomplete(message.robot, robot->second, output);
   if (!frame) return;
   ReceivedMessage whole = message;
   whole.frame_id = frame->frame_id;
   whole.data = frame->data;
   whole.message_bytes = frame->message_bytes;
   receive_frame(whole, now, output);
+}
+
+void Station::report_incomplete(const std::string& name, Robot& robot, StationOutput& output) {
+  if (robot.chunks.incomplete() == robot.incomplete) return;
+  robot.incomplete = robot.chunks.incomplete();
+  output.errors.push_back({name, robot.last, "parts of a frame did not come"});
 }
 
 void Station::receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output) {
@@ -115,6 +118,8 @@ void Station::receive_frame(const ReceivedMessage& message, Stamp now, StationOu
 StationOutput Station::tick(Stamp now) {
   StationOutput output;
   for (auto& [name, robot] : robots_) {
+    robot.chunks.expire(now);
+    report_incomplete(name, robot, output);
     auto& waiting = robot.waiting;
     while (!waiting.empty() && waiting.front().deadline <= now) {
       give_up(waiting.front(), "its reference did not come in time", output);

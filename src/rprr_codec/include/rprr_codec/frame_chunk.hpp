@@ -55,15 +55,18 @@ class FrameAssembler {
   /// The frame, when this was its last missing chunk. message_bytes: of the message that carried
   /// it. Chunks that contradict those before them (another count, too long) end their frame.
   std::optional<Frame> add(Stamp stamp, const std::string& frame_id, const FrameChunk& chunk,
-                           std::size_t message_bytes);
+                           std::size_t message_bytes, Stamp now = 0);
+  /// Gives up frames of which nothing came for a while.
+  void expire(Stamp now);
 
-  /// Frames of which something was lost: they gave way to newer ones.
+  /// Frames of which something was lost.
   std::size_t incomplete() const { return incomplete_; }
 
  private:
   struct Partial {
     Stamp stamp = 0;
     std::uint16_t number = 0;
+    Stamp touched = 0;
     std::vector<Bytes> pieces;
     std::size_t missing = 0;
     std::size_t bytes = 0;

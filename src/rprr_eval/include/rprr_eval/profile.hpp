@@ -4,6 +4,7 @@
 #include <string>
 
 #include "rprr_codec/frame_codec.hpp"
+#include "rprr_codec/send_queue.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
@@ -21,6 +22,7 @@ struct Profile {
   SamplesOptions samples;
   ValidationOptions validation;
   FrameCodecOptions codec;
+  SendQueueOptions sending;
   StationOptions station;
 };
 

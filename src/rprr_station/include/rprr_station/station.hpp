@@ -147,6 +147,7 @@ class Station {
   };
 
   void receive_chunk(const ReceivedMessage& message, Stamp now, StationOutput& output);
+  void report_incomplete(const std::string& name, Robot& robot, StationOutput& output);
   void receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output);
   Result<EncodedFrame> parse(const ReceivedMessage& message, RebuiltFrame& frame) const;
   void account(const ReceivedMessage& message, const EncodedFrame& encoded,
