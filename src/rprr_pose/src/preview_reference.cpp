@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kSentKept = 8;               // frames, as references for later
 constexpr double kEnoughShared = 0.5;              // of b's view, for an older reference
-constexpr int kMostLate = 12;                      // previews; more are no leftovers
 constexpr double kSlowFrame = 0.75;                // seconds to the station
 constexpr Duration kPatience = from_seconds(0.1);  // with a frame that is about to arrive
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
@@ -35,7 +34,7 @@ class PreviewReference final : public ExchangeRole {
     const auto* preview = std::get_if<PreviewMessage>(&message);
     if (!preview || preview->receiver != options_.self) return;
     if (preview->exchange == 0 || preview->exchange == last_answered_) return;
-    if (!is_stale(*preview)) answer(*preview, now, out);
+    answer(*preview, now, out);
   }
 
   void tick(Stamp now, RoleOutput& out) override {
@@ -57,20 +56,6 @@ class PreviewReference final : public ExchangeRole {
     early_ = message;  // its frame may be about to arrive
     early_deadline_ =
         now + (options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout});
-  }
-
-  // What a radio that was silent held back: b does not wait for the answer any more. Against this
-  // robot's newest frame, less what clocks differ by: the least that was seen.
-  bool is_stale(const PreviewMessage& message) {
-    const PoseFramePtr newest = frames_.newest();
-    if (!newest || options_.reference_age == 0) return false;
-    const Duration age = newest->stamp - message.stamp;
-    const bool is_late = least_age_ && age - *least_age_ > options_.step_timeout;
-    if (is_late && ++late_in_a_row_ < kMostLate) return true;
-    // A clock was set.
-    least_age_ = is_late || !least_age_ ? age : std::min(age, *least_age_);
-    late_in_a_row_ = 0;
-    return false;
   }
 
   // A frame that is sent now would be there late.
@@ -231,8 +216,6 @@ class PreviewReference final : public ExchangeRole {
   const PreviewOptions options_;
   const MotionPrior prior_;
   RadioState radio_;
-  std::optional<Duration> least_age_;  // of previews as they come, against the newest frame
-  int late_in_a_row_ = 0;
   std::deque<Sent> sent_;  // oldest first
   RecentFrames frames_;
   PreviewPoseEstimator estimator_;

@@ -162,34 +162,6 @@ TEST_F(BusyReference, OrToTheLastThatWasSent) {
   EXPECT_EQ(pose().stamp, 2000);
 }
 
-TEST_F(BusyReference, WhatASilentRadioHeldBackIsNotAnswered) {
-  at_a = at_b = {};
-  const Stamp later = from_seconds(10.0);
-  reference->offer(frame_a(later), now, at_a);
-  for (int i = 0; i < 8; ++i) {  // b's tries meanwhile
-    dependent->offer(frame_b(later - from_seconds(9.0 - i)), now, at_b);
-    dependent->tick(now += from_seconds(2.0), at_b);
-  }
-  ASSERT_EQ(at_b.send.size(), 8u);
-  for (const PoseMessage& message : at_b.send) reference->receive(message, now, at_a);
-  EXPECT_TRUE(at_a.send.empty());
-  exchange(later);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted) << "but what comes in time is";
-}
-
-TEST_F(BusyReference, AClockThatIsSetDoesNotSilenceIt) {
-  int answered = 0;
-  for (int i = 0; i < 15; ++i) {
-    at_a = at_b = {};
-    reference->offer(frame_a(from_seconds(1000.0 + i)), now, at_a);
-    dependent->offer(frame_b(from_seconds(10.0 + i)), now, at_b);
-    for (const PoseMessage& message : at_b.send) reference->receive(message, now, at_a);
-    answered += at_a.send.empty() ? 0 : 1;
-    dependent->tick(now += from_seconds(2.0), at_b);
-  }
-  EXPECT_GE(answered, 3);
-}
-
 TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
   reference->set_radio({true, {1000, 2000}, 3.0}, now, at_a);
   exchange(3000);
