@@ -14,6 +14,7 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
+constexpr int kLeastSide = 32;           // pixels
 constexpr double kFewestReadings = 0.1;  // of a view's cells
 // What a still camera's frames may seem to have moved, beyond its noise in this alignment.
 constexpr double kStillMetres = 0.01;
@@ -45,8 +46,9 @@ struct Found {
 
 bool usable(const PoseFrame& frame) {
   const cv::Mat& counts = frame.depth.counts;
-  return counts.type() == CV_16UC1 && !counts.empty() && counts.cols == frame.camera.width &&
-         counts.rows == frame.camera.height && frame.depth.unit > 0.0;
+  return counts.type() == CV_16UC1 && std::min(counts.cols, counts.rows) >= kLeastSide &&
+         counts.cols == frame.camera.width && counts.rows == frame.camera.height &&
+         frame.depth.unit > 0.0;
 }
 
 std::vector<PreviewView> views_of(const PoseFrame& frame) {

@@ -147,6 +147,11 @@ TEST(CameraMotion, EmptyOrMisshapenFramesAreSurvived) {
   PoseFrame other_size = *good;
   other_size.depth.counts = other_size.depth.counts.rowRange(0, 100);
   EXPECT_EQ(camera_motion(*good, other_size).outcome, Outcome::kUnknown);
+  PoseFrame tiny = *good;
+  tiny.depth.counts = tiny.depth.counts(cv::Rect(0, 0, 3, 2));
+  tiny.camera.width = 3;
+  tiny.camera.height = 2;
+  EXPECT_EQ(camera_motion(*good, tiny).outcome, Outcome::kUnknown);
 }
 
 TEST(CameraMotion, WhereAllPlacesLookAlikeNothingIsSaid) {
