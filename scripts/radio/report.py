@@ -129,6 +129,7 @@ class Run:
                 "lines": [{**line._asdict(), **sums._asdict()}
                           for line, sums in sorted(starting.items())],
             },
+            "after_silence": self.after_silence(),
             "missed_packets": self.meter["missed"],
             "agree": abs(metered - sum(received.values())) <= AGREE * sum(received.values()),
         }
@@ -150,6 +151,21 @@ class Run:
                                    "worst": max(late, default=None)}}
         return {"a": of(self.settings["a"]), "b": of(self.settings["b"]),
                 "played": int(self.settings["seconds"] * self.settings["fps"])}
+
+    def after_silence(self):
+        """Seconds from the radio's return until frames that were made after it came."""
+        back = self.phases["back"]
+        if back is None:
+            return None
+
+        def first(robot, sparse):
+            times = [each["time"] - back for each in self.statistics
+                     if each["robot"] == self.settings[robot] and each["stamp"] * 1e-9 >= back
+                     and (each["reference"] or not sparse)]
+            return min(times, default=None)
+        anything = [each["time"] - back for each in self.statistics if each["time"] >= back]
+        return {"any frame": min(anything, default=None), "new frame of a": first("a", False),
+                "new frame of b": first("b", False), "new exchange": first("b", True)}
 
     def quality(self):
         return {"views": len(self.images),
@@ -222,6 +238,9 @@ def print_accounts(result):
               f"{100 * missing / counts['messages']:.1f}% of the messages")
         print(f"  protocol overhead on RPRR's messages: "
               f"{100 * (counts['rprr_wire'] / counts['messages'] - 1):.1f}%")
+    if result["after_silence"]:
+        print("  seconds from the radio's return to the first: " + ", ".join(
+            f"{name} {number(seconds, 1)}" for name, seconds in result["after_silence"].items()))
     start = result["start"]
     parts = ", ".join(f"{name} {wire}" for name, wire in starting(start["lines"]))
     print(f"  starting up: {start['wire']} bytes in {start['seconds']:.1f} s, of these {parts}")

@@ -101,11 +101,16 @@ void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp no
     return sent.stamp == last || (sent.whole && contains(held, sent.stamp));
   });
   if (newest == in_flight_.rend()) return;
+  // The wait for one that was lost tells nothing of the radio.
+  const auto last_sent = std::prev(newest.base());
+  const Duration lost = lost_after();
+  const auto first = std::find_if(in_flight_.begin(), last_sent,
+                                  [&](const Sent& sent) { return now - sent.at <= lost; });
   learn(*newest, now);
   std::size_t bytes = 0;
-  for (auto sent = in_flight_.begin(); sent != newest.base(); ++sent) bytes += sent->bytes;
+  for (auto sent = first; sent != newest.base(); ++sent) bytes += sent->bytes;
   // The radio was busy with those before them until they were acknowledged.
-  const Stamp since = std::max(in_flight_.front().at, acknowledged_at_);
+  const Stamp since = std::max(first->at, acknowledged_at_);
   smooth(static_cast<double>(bytes) / std::max(to_seconds(now - since), 1e-3), delivery_rate_);
   acknowledged_at_ = now;
   in_flight_.erase(in_flight_.begin(), newest.base());

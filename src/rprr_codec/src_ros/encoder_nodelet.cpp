@@ -26,6 +26,7 @@
 #include "rprr_codec/send_queue.hpp"
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/radio_links.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 
 namespace rprr {
@@ -79,6 +80,7 @@ class EncoderNodelet : public nodelet::Nodelet {
     };
     publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16, joined);
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
+    links_ = RadioLinks::of_this_process();
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
     timer_ = nh.createWallTimer(ros::WallDuration(0.01), &EncoderNodelet::on_timer, this);
     server_ = std::make_unique<dynamic_reconfigure::Server<EncoderConfig>>(private_nh);
@@ -287,6 +289,7 @@ class EncoderNodelet : public nodelet::Nodelet {
     state.backlog = static_cast<float>(backlog);
     state_.publish(state);
     health_->show("seconds of backlog", std::to_string(backlog));
+    show(links_->state(), *health_);
   }
 
   std::string robot_;
@@ -303,6 +306,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   ros::Publisher publisher_;
   ros::Publisher state_;
   std::vector<ros::Subscriber> subscribers_;
+  std::shared_ptr<RadioLinks> links_;
   std::unique_ptr<dynamic_reconfigure::Server<EncoderConfig>> server_;
   ros::WallTimer timer_;
   std::unique_ptr<Worker> worker_;

@@ -274,6 +274,25 @@ TEST(SendQueue, LostFramesDoNotBlockTheRadioForGood) {
   EXPECT_TRUE(queue.room(later).ready);
 }
 
+TEST(SendQueue, ALostFrameDoesNotMakeTheRadioSeemNarrow) {
+  SendQueue queue(options_of(0.0));
+  Stamp now = kStart;
+  const auto send = [&](Stamp stamp, bool is_lost) {
+    queue.receipt("b", {}, {}, 0, now);
+    queue.offer(whole(stamp), now);
+    pump(queue, now, 40000);
+    now += 50 * kMillisecond;
+    if (!is_lost) queue.receipt("b", {stamp}, {}, stamp, now);
+  };
+  for (Stamp stamp = 1; stamp <= 8; ++stamp) send(stamp, false);
+  send(9, true);
+  now += from_seconds(20.0);
+  for (Stamp stamp = 10; stamp <= 12; ++stamp) {
+    send(stamp, false);
+    EXPECT_FALSE(queue.is_narrow()) << "after frame " << stamp;
+  }
+}
+
 TEST(SendQueue, ANewListenerIsNotWaitedForInVain) {
   SendQueue queue(options_of(0.0));
   queue.receipt("b", {}, {}, 0, kStart);

@@ -16,6 +16,7 @@
 
 #include "motion_report.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/radio_links.hpp"
 #include "rprr_geometry_ros/rgbd_subscriber.hpp"
 #include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
@@ -69,6 +70,7 @@ class ExchangeNode {
   MotionReport motion_;                // likewise
   Stamp radio_told_ = 0;               // when the radio's state came; 0: none is known
   SenderWatch senders_;
+  std::shared_ptr<RadioLinks> links_ = RadioLinks::of_this_process();
   ros::Publisher samples_, update_, preview_, pose_, event_;
   std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
   std::vector<ros::Subscriber> subscribers_;

@@ -19,6 +19,7 @@
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/parameters.hpp"
+#include "rprr_geometry_ros/radio_links.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/sparse_image.hpp"
@@ -232,6 +233,7 @@ class ValidationNodelet : public nodelet::Nodelet {
   std::string robot_;
   std::string peer_;
   std::unique_ptr<Health> health_;
+  std::shared_ptr<RadioLinks> links_ = RadioLinks::of_this_process();
   ros::Publisher outgoing_publisher_;
   ros::Publisher validation_publisher_;
   ros::Publisher mask_publisher_;

@@ -22,6 +22,7 @@
 
 #include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_geometry_ros/health.hpp"
+#include "rprr_geometry_ros/radio_links.hpp"
 #include "rprr_geometry_ros/sender_watch.hpp"
 #include "rprr_geometry_ros/worker.hpp"
 #include "rprr_station/scene_cloud.hpp"
@@ -65,6 +66,7 @@ class StationNodelet : public nodelet::Nodelet {
     parameters_ = *parameters;
     const std::vector<std::string>& names = parameters_.station.robots;
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
+    links_ = RadioLinks::of_this_process();
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
     points_ = nh.advertise<sensor_msgs::PointCloud2>("/station/points", 2);
     receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
@@ -149,6 +151,7 @@ class StationNodelet : public nodelet::Nodelet {
       if (++ticks_ % kTicksOfReceipts == 0) {
         for (const auto& [name, robot] : robots_) publish_receipt(name, {});
         watch_silence();
+        show(links_->state(), *health_);
       }
     });
   }
@@ -278,6 +281,7 @@ class StationNodelet : public nodelet::Nodelet {
   ros::Publisher receipts_;
   ros::Publisher points_;
   ros::Publisher frusta_;
+  std::shared_ptr<RadioLinks> links_;
   SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
