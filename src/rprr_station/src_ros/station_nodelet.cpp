@@ -37,6 +37,7 @@ namespace {
 constexpr std::size_t kLongestChunk = 16384;  // bytes; a longer message is a frame in one piece
 constexpr std::size_t kChunksOfAFrame = 32;   // that may wait, of each frame that may
 constexpr unsigned kTicksOfReceipts = 5;      // between receipts that nothing else causes
+constexpr double kClocksApart = 20.0;         // milliseconds; the pairing of frames suffers
 
 // Makes a message only where somebody listens; as a shared pointer nodelets get it without a copy.
 template <typename Make>
@@ -232,8 +233,22 @@ class StationNodelet : public nodelet::Nodelet {
 
   void publish_statistics(const RebuiltFrame& frame, const std_msgs::Header& header) {
     rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
-    statistics.latency_ms = static_cast<float>((ros::Time::now() - header.stamp).toSec() * 1e3);
+    statistics.latency_ms = latency_of(frame.robot, header.stamp);
     statistics_.publish(statistics);
+  }
+
+  // Milliseconds. A clock that is behind cannot be told from a slow radio here, one that is ahead
+  // can.
+  float latency_of(const std::string& robot, const ros::Time& stamp) {
+    const ros::Time now = ros::Time::now();
+    const double ms = (now - stamp).toSec() * 1e3;
+    if (ms < -kClocksApart && !now.isZero()) {  // zero: simulated time has not begun
+      health_->warn("clock of " + robot,
+                    "frames of '" + robot + "' come " + std::to_string(std::lround(-ms)) +
+                        " ms before their stamps: its clock is ahead of the station's by more than "
+                        "that, and latency_ms is off by as much; keep both together with chrony");
+    }
+    return static_cast<float>(ms);
   }
 
   // Frames are kept only while somebody listens: the first scene is that of the next reference.
