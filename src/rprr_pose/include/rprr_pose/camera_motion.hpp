@@ -26,8 +26,8 @@ struct CameraMotion {
       0.0;  // with kStill and kMoved: share of either view that the other shows, the less
 };
 
-/// Aligned coarse to fine at block resolution, from no motion and a few turns (tested up to 0.2 m and
-/// 18 degrees), without a search. Frames that are not of their camera's size tell nothing.
+/// Aligned coarse to fine at block resolution, from no motion and a few turns (tested up to 0.2 m
+/// and 18 degrees), without a search. Frames that are not of their camera's size tell nothing.
 CameraMotion camera_motion(const PoseFrame& earlier, const PoseFrame& later);
 
 }  // namespace rprr
