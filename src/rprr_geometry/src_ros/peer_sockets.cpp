@@ -92,10 +92,11 @@ std::optional<Connection> connection_of(int socket) {
 
 }  // namespace
 
-std::map<std::string, Peer> peers_of_this_process() {
+std::map<std::string, Peer> peers_of_this_process(const std::set<int>& except) {
   std::set<std::string> own_ports;  // where this process listens
   std::vector<Connection> connections;
   for (const int file : open_files()) {
+    if (except.count(file) > 0) continue;
     if (const auto connection = connection_of(file)) {
       connections.push_back(*connection);
     } else if (is_listening(file)) {
@@ -131,6 +132,10 @@ void Probe::send(const SocketAddress& to, Stamp now) {
     return;
   }
   attempts_.push_back({number, now});
+}
+
+void Probe::add_sockets(std::set<int>& sockets) const {
+  for (const Attempt& attempt : attempts_) sockets.insert(attempt.socket);
 }
 
 bool Probe::was_answered(Stamp now) {

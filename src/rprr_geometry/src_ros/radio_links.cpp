@@ -164,7 +164,9 @@ void RadioLinks::run() {
 }
 
 void RadioLinks::look() {
-  const std::map<std::string, Peer> peers = peers_of_this_process();
+  std::set<int> probes;
+  for (const auto& [name, host] : hosts_) host.probe.add_sockets(probes);
+  const std::map<std::string, Peer> peers = peers_of_this_process(probes);
   for (auto host = hosts_.begin(); host != hosts_.end();) {
     host = peers.count(host->first) > 0 ? std::next(host) : hosts_.erase(host);
   }

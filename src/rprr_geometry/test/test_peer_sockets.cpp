@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <set>
 #include <thread>
 
 namespace rprr {
@@ -85,6 +86,19 @@ TEST(PeersOfThisProcess, ConnectionsThatOthersOpenedDoNotCount) {
   for (int i = 0; i < 5; ++i) rest();
   loopback.ask();  // heard at the end that was accepted
   EXPECT_GE(peers_of_this_process().at("127.0.0.1").quiet, 0.25);
+}
+
+TEST(PeersOfThisProcess, ProbesDoNotCount) {
+  Loopback loopback;
+  loopback.listen_there();
+  Probe probe;
+  probe.send(loopback.address(), 0);
+  rest();
+  EXPECT_EQ(peers_of_this_process().count("127.0.0.1"), 1U);
+  std::set<int> probes;
+  probe.add_sockets(probes);
+  EXPECT_EQ(probes.size(), 1U);
+  EXPECT_EQ(peers_of_this_process(probes).count("127.0.0.1"), 0U);
 }
 
 TEST(Probe, IsAnsweredByAListener) {

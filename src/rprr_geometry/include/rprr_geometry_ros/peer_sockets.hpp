@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 
 #include "rprr_geometry/stamp.hpp"
@@ -24,9 +25,10 @@ struct Peer {
   bool is_local = false;   // it is this host
 };
 
-/// Hosts to which this process has opened connections, by numeric address. Reads the process's own
-/// sockets (/proc/self/fd, TCP_INFO: Linux); those of other processes are not seen.
-std::map<std::string, Peer> peers_of_this_process();
+/// Hosts to which this process has opened connections, by numeric address; sockets in `except`
+/// (those of probes) do not count. Reads the process's own sockets (/proc/self/fd, TCP_INFO:
+/// Linux); those of other processes are not seen.
+std::map<std::string, Peer> peers_of_this_process(const std::set<int>& except = {});
 
 /// Asks a host for a sign of life with a TCP handshake, without waiting for it.
 class Probe {
@@ -40,6 +42,8 @@ class Probe {
   void send(const SocketAddress& to, Stamp now);
   /// Whether one was answered since the last call: accepted, or refused.
   bool was_answered(Stamp now);
+  /// Adds the sockets of probes that may still be answered.
+  void add_sockets(std::set<int>& sockets) const;
 
  private:
   struct Attempt {
