@@ -41,6 +41,10 @@ def free_port():
         return probe.getsockname()[1]
 
 
+def clock_topic(host):
+    return f"/{host}/clock"
+
+
 class Process:
     """A command that can be killed and started again."""
 
@@ -91,8 +95,10 @@ class Process:
 class Processes:
     """Master, relay and the pair's nodes. Logs are in the folder."""
 
-    def __init__(self, folder, seed=1, launch_arguments=(), parameters=None):
-        """parameters: values by full name, beyond those of the launch file."""
+    def __init__(self, folder, seed=1, launch_arguments=(), parameters=None, own_clock=()):
+        """parameters: values by full name, beyond those of the launch file. own_clock: hosts whose
+        nodes take the time from clock_topic(host), not from this machine."""
+        self.own_clock = own_clock
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         self.port = free_port()
@@ -110,6 +116,7 @@ class Processes:
         self.parameters.update(parameters or {})
         self.parameters["/fault_relay/topics"] = sum(RADIO.values(), [])
         self.parameters["/fault_relay/seed"] = seed
+        self.parameters.update({f"/{host}/use_sim_time": True for host in self.own_clock})
 
     def _process(self, name, command, **environment):
         return Process(name, command, {**self.environment, **environment},
@@ -133,6 +140,8 @@ class Processes:
             heard = sum((topics for sender, topics in RADIO.items() if sender != host), [])
             command = [self._executable(node.package, node.type), f"__name:={node.name}"]
             command += [f"{topic}:={RELAYED}{topic}" for topic in heard]
+            if host in self.own_clock:
+                command += [f"/clock:={clock_topic(host)}", f"/use_sim_time:=/{host}/use_sim_time"]
             name = node.namespace + node.name
             self.nodes[name] = self._process(name, command,
                                              ROS_NAMESPACE=node.namespace.rstrip("/"))

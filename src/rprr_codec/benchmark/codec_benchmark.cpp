@@ -2,6 +2,7 @@
 // Medians of processor time over the PNG images of folders in the layout of the TUM benchmark
 // (depth/, rgb/):
 //   rprr_codec_codec_benchmark FOLDER...
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -99,6 +100,13 @@ void benchmark_colour(const std::vector<cv::Mat>& images) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto is_folder = [](const char* path) { return std::filesystem::is_directory(path); };
+  if (argc < 2 || !std::all_of(argv + 1, argv + argc, is_folder)) {
+    std::fprintf(stderr,
+                 "Usage: rprr_codec_codec_benchmark FOLDER...\nTimes of the codecs over the PNG "
+                 "images in depth/ and rgb/ of folders.\n");
+    return 2;
+  }
   for (int i = 1; i < argc; ++i) {
     const fs::path folder = argv[i];
     std::printf("%s\n", folder.c_str());

@@ -4,6 +4,7 @@
 // Of each codec and quality: bytes, PSNR, and medians of milliseconds on one core; of sparse
 // frames: bytes with the unsent blocks black, in place and compact; of the base: bytes with and
 // without the blocks that are in the detail.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -191,6 +192,13 @@ void benchmark_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto is_folder = [](const char* path) { return std::filesystem::is_directory(path); };
+  if (argc < 2 || !std::all_of(argv + 1, argv + argc, is_folder)) {
+    std::fprintf(stderr,
+                 "Usage: rprr_codec_colour_benchmark FOLDER...\nColour codecs over the images in "
+                 "rgb/ of folders in the layout of the TUM benchmark.\n");
+    return 2;
+  }
   cv::setNumThreads(1);
   for (int i = 1; i < argc; ++i) benchmark_folder(argv[i]);
   return 0;

@@ -1,15 +1,59 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the tests of a script in unittest, and writes what JUnit would: reasons of skips as well."""
+"""Tests of scripts in unittest: what they share, and results as JUnit writes them, reasons of skips
+as well."""
 
 import os
 import pathlib
+import shutil
+import subprocess
 import sys
+import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPTS = ROOT / "scripts"
+
+
+def wait_for(condition, seconds):
+    """Whether the condition came true within so long."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.1)
+    return False
+
+
+class ScriptTest(unittest.TestCase):
+    """One script of scripts/, run as people run it. Its tests share a folder, which is removed."""
+
+    script = ""   # its name
+    options = ()  # before those of each run; setUpClass may set them
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix=f"rprr_{cls.script}_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+
+    def start(self, *options):
+        """The process; what it says waits for end()."""
+        return subprocess.Popen([str(SCRIPTS / self.script), *self.options, *options],
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+
+    def end(self, process, status):
+        """Waits until it ends, which must be with this status; what it said."""
+        said, _ = process.communicate()
+        self.assertEqual(process.returncode, status, said)
+        return said
+
+    def check_refused(self, *wrong):
+        """Each of these lists of options ends the script with an error in words."""
+        for options in wrong:
+            with self.subTest(options=options):
+                self.assertIn("error: ", self.end(self.start(*options), 1))
 
 
 class _Result(unittest.TextTestResult):

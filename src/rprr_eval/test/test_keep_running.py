@@ -14,6 +14,7 @@ import unittest
 import xmlrpc.client
 
 import script_test
+from script_test import wait_for
 
 KEEP = str(script_test.SCRIPTS / "keep_running")
 
@@ -22,15 +23,6 @@ def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         return probe.getsockname()[1]
-
-
-def wait_for(condition, seconds):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.1)
-    return False
 
 
 class KeepRunning(unittest.TestCase):

@@ -3,17 +3,12 @@
 """scripts/radio_test: robots and station on three hosts, all bytes of the radio explained."""
 
 import json
-import pathlib
-import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
 import script_test
-
-RADIO_TEST = str(script_test.SCRIPTS / "radio_test")
 
 
 def spaces():
@@ -21,28 +16,23 @@ def spaces():
     return {line.split()[0] for line in listed.stdout.splitlines() if "rprr_radio_" in line}
 
 
-class RadioTest(unittest.TestCase):
+class RadioTest(script_test.ScriptTest):
+    script = "radio_test"
+
     @classmethod
     def setUpClass(cls):
-        why_not = subprocess.run([RADIO_TEST, "--why-not"], stdout=subprocess.PIPE, check=False,
-                                 text=True)
+        why_not = subprocess.run([str(script_test.SCRIPTS / cls.script), "--why-not"],
+                                 stdout=subprocess.PIPE, check=False, text=True)
         if why_not.returncode != 0:
             raise unittest.SkipTest("no radio can be made: " + why_not.stdout.strip())
-        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="rprr_radio_test_"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        super().setUpClass()
+        cls.options = ("--output", str(cls.folder / "run"), "--folder", str(cls.folder / "room"))
         subprocess.run(["rosrun", "rprr_sensor", "synthetic_to_folder", str(cls.folder / "room"),
                         "--frames", "6"], stdout=subprocess.DEVNULL, check=True)
 
-    def start(self, *options):
-        return subprocess.Popen([RADIO_TEST, "--output", str(self.folder / "run"),
-                                 "--folder", str(self.folder / "room"), *options],
-                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True)
-
     def test_every_byte_on_the_radio_is_accounted_for(self):
         process = self.start("--seconds", "5", "--fps", "2", "--json", str(self.folder / "out"))
-        said, _ = process.communicate()
-        self.assertEqual(process.returncode, 0, said)
+        said = self.end(process, 0)
         run, = json.loads((self.folder / "out").read_text(encoding="utf-8"))["runs"]
         self.assertGreater(run["frames"]["b"]["rebuilt"], 2, said)
         self.assertGreater(run["quality"]["psnr"], 25.0, said)
@@ -68,23 +58,16 @@ class RadioTest(unittest.TestCase):
     def test_an_interrupted_run_leaves_nothing(self):
         before = spaces()
         process = self.start("--seconds", "60")
-        end = time.monotonic() + 60
-        while spaces() == before and process.poll() is None and time.monotonic() < end:
-            time.sleep(0.1)
+        script_test.wait_for(lambda: spaces() != before or process.poll() is not None, 60)
         self.assertNotEqual(spaces(), before, "it made no namespaces")
         time.sleep(2)
         process.send_signal(signal.SIGINT)
-        said, _ = process.communicate()
-        self.assertEqual(process.returncode, 130, said)
+        said = self.end(process, 130)
         self.assertLessEqual(spaces(), before, said)
 
     def test_nonsense_is_refused(self):
-        for options in (("--rate-kbit", "much"), ("--master", "c"), ("--folder", "/nowhere"),
-                        ("--bandwidth", "-1"), ("--what",)):
-            process = self.start(*options)
-            said, _ = process.communicate()
-            self.assertEqual(process.returncode, 1, said)
-            self.assertIn("error: ", said)
+        self.check_refused(("--rate-kbit", "much"), ("--master", "c"), ("--folder", "/nowhere"),
+                           ("--bandwidth", "-1"), ("--what",))
 
 
 if __name__ == "__main__":

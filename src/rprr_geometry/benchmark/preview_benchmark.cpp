@@ -104,6 +104,13 @@ void benchmark(const std::string& name, const std::vector<Frame>& frames) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto is_folder = [](const char* path) { return std::filesystem::is_directory(path); };
+  if (!std::all_of(argv + 1, argv + argc, is_folder)) {
+    std::fprintf(stderr,
+                 "Usage: rprr_geometry_benchmark [FOLDER...]\nTimes of block previews, over "
+                 "folders in the layout of the TUM benchmark or a synthetic frame.\n");
+    return 2;
+  }
   cv::setNumThreads(1);
   if (argc == 1) {
     rprr::PreviewScene scene;

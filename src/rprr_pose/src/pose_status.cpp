@@ -23,6 +23,8 @@ const char* reason_of(PoseStatus status) {
       return "points lie in free space";
     case PoseStatus::kMalformed:
       return "the peer's message could not be read";
+    case PoseStatus::kNoFrame:
+      return "no frame of the reference is near in time: clocks differ, or its camera is stuck";
   }
   return "unknown status";
 }

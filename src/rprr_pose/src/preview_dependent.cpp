@@ -45,7 +45,7 @@ class PreviewDependent final : public ExchangeRole {
     if (pose->status != PoseStatus::kAccepted) {
       // A reference that could not read the preview may have forgotten this camera.
       if (pose->status == PoseStatus::kMalformed) camera_sent_ = 0;
-      return send_whole("pose rejected: " + std::string(reason_of(pose->status)), out);
+      return send_whole("pose rejected by " + options_.peer + ": " + reason_of(pose->status), out);
     }
     if (!is_rigid(pose->motion) || !pose->covariance.allFinite() || !peer_camera_) {
       out.problems.push_back(options_.peer + ": accepted pose that is not a pose, or no camera");

@@ -2,19 +2,17 @@
 #include "rprr_pose/preview_pose.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "rprr_pose/frame_views.hpp"
 
 namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kCoarsest = 16;     // cells in a row of the coarsest view: 80, 40 and 20 for VGA
 constexpr std::size_t kSlid = 6;  // candidates that are also tried some way along
 constexpr double kRival = 0.75;   // of a warm pose's score: another one that scores more is a rival
-constexpr double kUnseen = 2.65;  // of the covariance: rprr_eval consistency --first-seed 1
-constexpr double kTilesOfModel = 8.0;     // how many tiles' word the residuals' variance is worth
 constexpr double kSharedPower = 0.4;      // how much more of a view that is shared counts
 constexpr double kSlideStep = 0.25;       // metres
 constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
@@ -22,79 +20,9 @@ constexpr std::size_t kRefined = 4;       // candidates that are aligned to the 
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
 
-std::vector<PreviewView> pyramid(PreviewView view) {
-  std::vector<PreviewView> levels{std::move(view)};
-  while (levels.back().width() / 2 >= kCoarsest) levels.push_back(half_view(levels.back()));
-  if (levels.size() == 1) levels.push_back(half_view(levels.back()));
-  return levels;
-}
-
 bool differ(const Pose& left, const Pose& right, double metres, double degrees) {
   return (left.translation() - right.translation()).norm() > metres ||
          rotation_angle(left.linear() * right.linear().transpose()) > degrees * kDegree;
-}
-
-// Means of 8x8 pixels, one every four: as smooth as a block's colour, sampled twice as finely.
-cv::Mat smooth_luma(const cv::Mat& bgr, const Camera& camera, Camera& out_camera) {
-  const int columns = bgr.cols / 4;
-  const int rows = bgr.rows / 4;
-  cv::Mat quarter(rows, columns, CV_32FC1);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      int sum = 0;
-      for (int v = 4 * r; v < 4 * r + 4; ++v) {
-        const auto* p = bgr.ptr<std::uint8_t>(v) + 12 * c;
-        for (int k = 0; k < 12; k += 3) sum += 29 * p[k] + 150 * p[k + 1] + 77 * p[k + 2];
-      }
-      quarter.at<float>(r, c) = static_cast<float>(sum) / (16.0f * 256.0f);
-    }
-  }
-  cv::Mat out(rows - 1, columns - 1, CV_32FC1);
-  for (int r = 0; r + 1 < rows; ++r) {
-    const auto* p = quarter.ptr<float>(r);
-    const auto* q = quarter.ptr<float>(r + 1);
-    auto* o = out.ptr<float>(r);
-    for (int c = 0; c + 1 < columns; ++c) o[c] = 0.25f * (p[c] + p[c + 1] + q[c] + q[c + 1]);
-  }
-  // The first mean covers pixels 0 to 7, so its centre is 3.5; the next is four pixels on.
-  out_camera = {out.cols,
-                out.rows,
-                camera.fx / 4,
-                camera.fy / 4,
-                (camera.cx - 3.5) / 4,
-                (camera.cy - 3.5) / 4};
-  return out;
-}
-
-cv::Mat metres_of(const DepthFrame& depth) {
-  cv::Mat out(depth.counts.size(), CV_32FC1);
-  const auto unit = static_cast<float>(depth.unit);
-  for (int v = 0; v < out.rows; ++v) {
-    const auto* in = depth.counts.ptr<std::uint16_t>(v);
-    auto* o = out.ptr<float>(v);
-    for (int u = 0; u < out.cols; ++u) o[u] = static_cast<float>(in[u]) * unit;
-  }
-  return out;
-}
-
-// Of the aligned motion. Neighbours share their sensor's errors, so that the residuals' number says
-// too much: what they do to the estimate is taken from their sums over tiles, leaning on the
-// residuals' own variance where tiles are few. What both do not see (coding, noise in the slopes
-// that the residuals are projected on) is a factor, from exact truth on seeds 1 to 40.
-Matrix6 covariance_of(const AlignmentSums& sums) {
-  const double freedom = std::max(1, sums.geometry + sums.luma - 6);
-  const double scale = std::max(1.0, (sums.chi2_geometry + sums.chi2_luma) / freedom);
-  Matrix6 information = sums.information;
-  information.diagonal().array() += 1.0;
-  const Matrix6 inverse = information.inverse();
-  const double tiles = sums.tiles;
-  const Matrix6 clustered = tiles / std::max(1.0, tiles - 6.0) * inverse * sums.scatter * inverse;
-  return kUnseen * (tiles * clustered + kTilesOfModel * scale * inverse) / (tiles + kTilesOfModel);
-}
-
-double worst_sigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
 }
 
 }  // namespace
@@ -103,13 +31,7 @@ void PreviewPoseEstimator::prepare(const PoseFrame& a) {
   if (prepared_ == a.stamp && !a_.empty()) return;
   prepared_ = a.stamp;
   a_ = pyramid(make_view(make_preview(a.depth, a.bgr), a.camera));
-  fine_.metres = metres_of(a.depth);
-  fine_.metres_camera = a.camera;
-  fine_.luma.release();
-  // Without colour the cells' even grey serves: depth alone then has to do, and is not believed.
-  if (a.bgr.type() == CV_8UC3 && a.bgr.size() == a.depth.counts.size()) {
-    fine_.luma = smooth_luma(a.bgr, a.camera, fine_.luma_camera);
-  }
+  fine_ = fine_view(a);
 }
 
 void PreviewPoseEstimator::judge(Candidate& candidate) const {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSentKept = 8;               // frames, as references for later
 constexpr double kEnoughShared = 0.5;              // of b's view, for an older reference
 constexpr double kSlowFrame = 0.75;                // seconds to the station
-constexpr Duration kPatience = from_seconds(0.1);  // with a frame that is about to arrive
+constexpr Duration kPatience = from_seconds(0.1);  // where another frame will do
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
 
 class PreviewReference final : public ExchangeRole {
@@ -27,35 +27,62 @@ class PreviewReference final : public ExchangeRole {
 
   void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
     frames_.add(frame);
-    if (early_) answer(*std::exchange(early_, std::nullopt), now, out);
+    // Frames that do not fit do not make it wait longer.
+    if (early_) answer(*std::exchange(early_, std::nullopt), early_deadline_, now, out);
   }
 
   void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
     const auto* preview = std::get_if<PreviewMessage>(&message);
     if (!preview || preview->receiver != options_.self) return;
     if (preview->exchange == 0 || preview->exchange == last_answered_) return;
-    answer(*preview, now, out);
+    answer(*preview, now + patience(), now, out);
   }
 
   void tick(Stamp now, RoleOutput& out) override {
     if (!early_ || now < early_deadline_) return;
     const PreviewMessage message = *std::exchange(early_, std::nullopt);
-    if (options_.reference_age == 0) return;
-    if (const PoseFramePtr frame = frames_.newest()) answer(message, frame, frame, now, out);
+    const PoseFramePtr newest = frames_.newest();
+    if (!newest) return;
+    if (options_.reference_age == 0) return refuse(message, *newest, out);
+    answer(message, newest, newest, now, out);
   }
 
   void set_radio(const RadioState& radio, Stamp, RoleOutput&) override { radio_ = radio; }
 
  private:
-  void answer(const PreviewMessage& message, Stamp now, RoleOutput& out) {
+  // With a frame that is about to arrive.
+  Duration patience() const {
+    return options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout / 2};
+  }
+
+  void answer(const PreviewMessage& message, Stamp deadline, Stamp now, RoleOutput& out) {
     const PoseFramePtr frame = choose(message.stamp);
     // What the station holds already serves at once. Meanwhile a new one is on its way.
     const PoseFramePtr held = is_slow() ? last_sent(now) : nullptr;
     if (held && frame && radio_.ready) send_whole(frame, message.exchange, now, out);
     if (held || frame) return answer(message, held ? held : frame, frame, now, out);
     early_ = message;  // its frame may be about to arrive
-    early_deadline_ =
-        now + (options_.reference_age > 0 ? kPatience : Duration{options_.step_timeout});
+    early_deadline_ = deadline;
+  }
+
+  // In time for b, so that it hears why, and can tell how far clocks are apart.
+  void refuse(const PreviewMessage& message, const PoseFrame& newest, RoleOutput& out) {
+    last_answered_ = message.exchange;
+    RelativePoseMessage pose = pose_for(newest, message);
+    pose.status = PoseStatus::kNoFrame;
+    pose.bytes_spent =
+        static_cast<std::uint32_t>(serialised_bytes(message) + serialised_bytes(pose));
+    out.send.emplace_back(std::move(pose));
+  }
+
+  RelativePoseMessage pose_for(const PoseFrame& frame, const PreviewMessage& message) const {
+    RelativePoseMessage pose;
+    pose.stamp = frame.stamp;
+    pose.frame_id = frame.frame_id;
+    pose.dependent_stamp = message.stamp;
+    pose.dependent = options_.peer;
+    pose.exchange = message.exchange;
+    return pose;
   }
 
   // A frame that is sent now would be there late.
@@ -129,13 +156,8 @@ class PreviewReference final : public ExchangeRole {
   Attempt try_frame(const PoseFrame& frame, const PreviewMessage& message,
                     const Result<PreviewContent>& content) {
     Attempt attempt;
-    RelativePoseMessage& pose = attempt.pose;
-    pose.stamp = frame.stamp;
-    pose.frame_id = frame.frame_id;
-    pose.dependent_stamp = message.stamp;
-    pose.dependent = options_.peer;
-    pose.exchange = message.exchange;
-    pose.status = PoseStatus::kMalformed;
+    attempt.pose = pose_for(frame, message);
+    attempt.pose.status = PoseStatus::kMalformed;
     attempt.wrong = content ? estimate(frame, message, *content, attempt) : content.reason();
     return attempt;
   }

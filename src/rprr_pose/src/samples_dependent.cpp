@@ -32,7 +32,10 @@ class SamplesDependent final : public ExchangeRole {
   void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
     frames_.add(frame);
     if (!unclaimed_since_) unclaimed_since_ = now;
-    if (early_ && !exchange_) begin(*std::exchange(early_, std::nullopt), now, out);
+    // Frames that do not fit do not make it wait longer.
+    if (early_ && !exchange_) {
+      begin(*std::exchange(early_, std::nullopt), early_deadline_, now, out);
+    }
   }
 
   void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
@@ -50,11 +53,17 @@ class SamplesDependent final : public ExchangeRole {
     if (exchange_ && now >= exchange_->deadline) {
       send_whole("exchange with " + options_.peer + " timed out", now, out);
     }
-    if (early_ && now >= early_deadline_) early_.reset();
+    if (early_ && now >= early_deadline_) {
+      early_.reset();
+      unpaired_ = true;
+    }
     if (!exchange_ && unclaimed_since_ && now - *unclaimed_since_ >= options_.silence_timeout) {
       FrameDecision alone;
       alone.frame = frames_.newest();
-      alone.reason = options_.peer + " is silent";
+      alone.reason = unpaired_ ? "no frame near that of " + options_.peer +
+                                     " in time: clocks differ, or a camera is stuck"
+                               : options_.peer + " is silent";
+      unpaired_ = false;
       out.decisions.push_back(alone);
       unclaimed_since_.reset();
     }
@@ -65,11 +74,11 @@ class SamplesDependent final : public ExchangeRole {
     if (exchange_ && message.exchange == exchange_->number)
       return on_more_samples(message, now, out);
     if (message.exchange == 0 || message.exchange == last_finished_) return;
-    begin(message, now, out);
+    begin(message, now + options_.step_timeout, now, out);
   }
 
   // A new exchange: find the frame that was taken when a's was, answer with its points.
-  void begin(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+  void begin(const SamplesMessage& message, Stamp deadline, Stamp now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content || content->iteration != 0) {
       if (!content) out.problems.push_back(options_.peer + ": " + content.reason());
@@ -78,7 +87,7 @@ class SamplesDependent final : public ExchangeRole {
     const PoseFramePtr frame = frames_.nearest(message.stamp);
     if (!frame) {  // it may be about to arrive
       early_ = message;
-      early_deadline_ = now + options_.step_timeout;
+      early_deadline_ = deadline;
       return;
     }
     if (exchange_) send_whole("a newer exchange with " + options_.peer + " began", now, out);
@@ -94,6 +103,7 @@ class SamplesDependent final : public ExchangeRole {
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
     exchange_->deadline = now + options_.step_timeout;
     unclaimed_since_.reset();
+    unpaired_ = false;
     send_samples(out);
     if (early_request_) on_request(*std::exchange(early_request_, std::nullopt), now, out);
   }
@@ -202,6 +212,7 @@ class SamplesDependent final : public ExchangeRole {
   std::optional<Exchange> exchange_;
   std::optional<SamplesMessage> early_;  // a new exchange whose frame is not here yet
   Stamp early_deadline_ = 0;
+  bool unpaired_ = false;  // an exchange came to nothing for want of such a frame
   std::optional<UpdateMessage> early_request_;  // a request that overtook its samples
   std::optional<Stamp> unclaimed_since_;  // when the first frame came that no exchange claimed
   std::uint32_t last_finished_ = 0;

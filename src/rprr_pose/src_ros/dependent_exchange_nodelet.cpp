@@ -26,9 +26,9 @@ class DependentExchangeNodelet : public nodelet::Nodelet {
     } else {
       roles[peer] = make_samples_dependent(read_samples_options(parameters, robot, peer));
     }
-    node_ = std::make_unique<ExchangeNode>(getNodeHandle(), private_nh, "dependent exchange", robot,
-                                           std::move(roles), true,
-                                           [](const FrameDecision&, Health&) {});
+    node_ = std::make_unique<ExchangeNode>(
+        getNodeHandle(), private_nh, "dependent exchange", robot, std::move(roles), true,
+        parameters.param("stale_overlap", kStaleOverlap), [](const FrameDecision&, Health&) {});
   }
 
   std::unique_ptr<ExchangeNode> node_;

@@ -59,8 +59,12 @@ bool is_intact(const Message&) {
 ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
                            const std::string& robot,
                            std::map<std::string, std::unique_ptr<ExchangeRole>> roles,
-                           bool listen_to_poses, Observer observer)
-    : nh_(nh), robot_(robot), health_(nh, private_nh, name, robot), observer_(std::move(observer)) {
+                           bool listen_to_poses, double stale_overlap, Observer observer)
+    : nh_(nh),
+      robot_(robot),
+      health_(nh, private_nh, name, robot),
+      observer_(std::move(observer)),
+      motion_(nh_, robot, stale_overlap, health_) {
   const std::string prefix = "/" + robot + "/rprr/";
   samples_ = nh_.advertise<rprr_msgs::SamplePoints>(prefix + "samples", 10);
   update_ = nh_.advertise<rprr_msgs::PoseUpdate>(prefix + "update", 10);
@@ -99,6 +103,7 @@ void ExchangeNode::subscribe(const std::string& peer, bool listen_to_poses) {
 
 void ExchangeNode::on_frame(const RgbdFramePtr& frame) {
   worker_->post([this, frame = to_pose_frame(frame)] {
+    motion_.see(frame);
     for (const auto& [peer, side] : sides_) {
       drive(peer, [&frame](ExchangeRole& role, RoleOutput& out) {
         role.offer(frame, steady_now(), out);
@@ -182,14 +187,15 @@ void ExchangeNode::time_message(const std::string& peer, const PoseMessage& mess
 void ExchangeNode::compare_clocks(const std::string& peer, Side& side) {
   const auto clock = side.clock.estimate(steady_now());
   if (!clock) return;
-  const std::string ms = std::to_string(static_cast<int>(std::lround(clock->offset * 1e3)));
-  health_.show("clock of " + peer + " is ahead, ms", ms);
+  const auto ms = std::lround(clock->offset * 1e3);
+  health_.show("clock of " + peer + " is ahead, ms", std::to_string(ms));
   health_.show("clock of " + peer + " is ahead, ms uncertain",
                std::to_string(static_cast<int>(std::lround(clock->uncertainty * 1e3))));
   if (std::abs(clock->offset) - clock->uncertainty < kClocksApart) return;
-  health_.warn("clocks differ", "the clock of '" + peer + "' is " + ms +
-                                    " ms ahead of this robot's, so frames of different instants "
-                                    "are paired: keep both together with chrony");
+  health_.warn("clocks differ", "the clock of '" + peer + "' is " + std::to_string(std::abs(ms)) +
+                                    (ms > 0 ? " ms ahead of" : " ms behind") +
+                                    " this robot's, so frames of different instants are paired, or "
+                                    "none: keep both together with chrony");
 }
 
 void ExchangeNode::drive(const std::string& peer,
@@ -211,6 +217,7 @@ void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, do
     if (!sparse) health_.show("last reason for a whole frame", decision.reason);
     event_.publish(to_event(decision, ms));
     observer_(decision, health_);
+    if (sparse) report_motion(decision);
   }
   for (const std::string& problem : output.problems) {
     health_.warn("message of " + peer + " refused",
@@ -218,6 +225,14 @@ void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, do
                      "; a message on a radio topic could not be used: check that all robots run "
                      "the same version and that nobody else publishes there");
   }
+}
+
+// After all that came meanwhile, so that the newest frame is known. A camera that is slower than
+// the exchange has none.
+void ExchangeNode::report_motion(const FrameDecision& decision) {
+  worker_->post([this, frame = decision.frame, peer = decision.peer, exchange = decision.exchange] {
+    motion_.report(frame, peer, exchange);
+  });
 }
 
 void ExchangeNode::publish(Side& side, const PoseMessage& message) {

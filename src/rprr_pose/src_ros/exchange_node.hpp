@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "motion_report.hpp"
 #include "rprr_geometry_ros/health.hpp"
 #include "rprr_geometry_ros/radio_links.hpp"
 #include "rprr_geometry_ros/rgbd_subscriber.hpp"
@@ -31,10 +32,10 @@ class ExchangeNode {
   using Observer = std::function<void(const FrameDecision&, Health&)>;
 
   /// roles by peer. listen_to_poses: whether the peers' relative_pose topics concern this robot.
-  /// The observer is told of every decision, on the worker thread.
+  /// stale_overlap: of MotionReport. The observer is told of every decision, on the worker thread.
   ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
                const std::string& robot, std::map<std::string, std::unique_ptr<ExchangeRole>> roles,
-               bool listen_to_poses, Observer observer);
+               bool listen_to_poses, double stale_overlap, Observer observer);
 
  private:
   struct Side {
@@ -58,6 +59,7 @@ class ExchangeNode {
   void drive(const std::string& peer,
              const std::function<void(ExchangeRole&, RoleOutput&)>& action);
   void publish(const std::string& peer, const RoleOutput& output, double ms);
+  void report_motion(const FrameDecision& decision);
   void publish(Side& side, const PoseMessage& message);
 
   ros::NodeHandle nh_;
@@ -65,6 +67,7 @@ class ExchangeNode {
   Health health_;
   Observer observer_;
   std::map<std::string, Side> sides_;  // worker thread only, as the next
+  MotionReport motion_;                // likewise
   Stamp radio_told_ = 0;               // when the radio's state came; 0: none is known
   SenderWatch senders_;
   std::shared_ptr<RadioLinks> links_ = RadioLinks::of_this_process();

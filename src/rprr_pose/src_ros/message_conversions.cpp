@@ -80,7 +80,7 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   out.dependent_stamp = to_stamp(message.dependent_stamp);
   out.dependent = message.dependent;
   out.exchange = message.exchange;
-  const bool known = message.status <= static_cast<std::uint8_t>(PoseStatus::kMalformed);
+  const bool known = message.status <= static_cast<std::uint8_t>(PoseStatus::kNoFrame);
   out.status = known ? static_cast<PoseStatus>(message.status) : PoseStatus::kMalformed;
   out.motion = pose_from_fields(message.translation, message.rotation);
   std::size_t at = 0;

@@ -11,6 +11,9 @@
 
 namespace rprr {
 
+/// Default of ~stale_overlap.
+constexpr double kStaleOverlap = 0.7;
+
 /// The private parameters of config/pose.yaml.
 SamplesOptions read_samples_options(const Parameters& parameters, const std::string& robot,
                                     const std::string& peer);

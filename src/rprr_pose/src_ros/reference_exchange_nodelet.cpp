@@ -37,6 +37,7 @@ class ReferenceExchangeNodelet : public nodelet::Nodelet {
     }
     node_ = std::make_unique<ExchangeNode>(
         getNodeHandle(), private_nh, "reference exchange", robot, std::move(roles), false,
+        parameters.param("stale_overlap", kStaleOverlap),
         [this](const FrameDecision& decision, Health& health) { on_decision(decision, health); });
   }
 

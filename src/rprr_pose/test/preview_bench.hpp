@@ -2,12 +2,14 @@
 #pragma once
 
 #include <rprr_msgs/BlockPreview.h>
+#include <rprr_msgs/CameraMotion.h>
 
 #include "exchange_bench.hpp"
 
 namespace rprr {
 
-using PreviewOfBlocks = rprr_msgs::BlockPreview;  // rprr::BlockPreview is what is inside
+using PreviewOfBlocks = rprr_msgs::BlockPreview;      // rprr::BlockPreview is what is inside
+using CameraMotionOfRobot = rprr_msgs::CameraMotion;  // likewise
 
 /// The exchange nodes while they speak the protocol of previews.
 class PreviewNodes : public ExchangeNodes {
@@ -19,7 +21,8 @@ class PreviewNodes : public ExchangeNodes {
   void SetUp() override {
     ExchangeNodes::SetUp();
     ASSERT_TRUE(wait([this] {
-      return previews.connected() && radio_preview.getNumSubscribers() >= 2;  // one is our inbox
+      return previews.connected() && a_motions.connected() && b_motions.connected() &&
+             radio_preview.getNumSubscribers() >= 2;  // one is our inbox
     })) << "the nodes do not use the topic of previews";
   }
   /// b looks elsewhere for one exchange: a has no fresh pose to begin with then.
@@ -35,6 +38,16 @@ class PreviewNodes : public ExchangeNodes {
   /// Whether the last exchange did without a search: RelativePose.iterations says so.
   bool was_warm() const { return pose_of(stamp)->iterations == 1; }
 
+  const CameraMotionOfRobot* motion_of(const Inbox<CameraMotionOfRobot>& motions,
+                                       ros::Time since) const {
+    for (const auto& motion : motions.messages) {
+      if (motion->since == since) return motion.get();
+    }
+    return nullptr;
+  }
+
+  Inbox<CameraMotionOfRobot> a_motions{nh, "/eyebug_a/rprr/motion"};
+  Inbox<CameraMotionOfRobot> b_motions{nh, "/eyebug_b/rprr/motion"};
   Inbox<PreviewOfBlocks> previews{nh, "/eyebug_b/rprr/preview"};
   ros::Publisher radio_preview = nh.advertise<PreviewOfBlocks>("/eyebug_b/rprr/preview", 100);
 };

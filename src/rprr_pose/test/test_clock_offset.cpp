@@ -45,5 +45,27 @@ TEST(ClockOffset, FollowsAClockThatIsSet) {
   EXPECT_FALSE(clock.estimate(later + from_seconds(61.0))) << "what is old is forgotten";
 }
 
+TEST(ClockOffset, AClockThatIsSetIsNoticedWithTheNextExchange) {
+  ClockOffset clock;
+  for (int i = 0; i < 20; ++i) clock.add(0.001, 0.001, kStart + i);
+  clock.add(5.2, -4.8, kStart + 100);
+  const auto estimate = clock.estimate(kStart + 100);
+  ASSERT_TRUE(estimate);
+  EXPECT_NEAR(estimate->offset, 5.0, 1e-9);
+  clock.add(0.011, -0.001, kStart + 200);
+  clock.add(0.013, -0.001, kStart + 300);
+  ASSERT_TRUE(clock.estimate(kStart + 300));
+  EXPECT_NEAR(clock.estimate(kStart + 300)->offset, 0.006, 1e-9)
+      << "a forged answer is outdone likewise";
+}
+
+TEST(ClockOffset, ALongWayContradictsNothing) {
+  ClockOffset clock;
+  clock.add(0.101, -0.099, kStart);
+  clock.add(3.1, 0.5, kStart + 1);
+  ASSERT_TRUE(clock.estimate(kStart + 1));
+  EXPECT_NEAR(clock.estimate(kStart + 1)->offset, 0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace rprr

@@ -3,6 +3,7 @@
 // their radio; the nodes are started by the .test files, as nodelets and as nodes.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -81,14 +82,38 @@ TEST_F(PreviewNodes, AcceptedPosesAreOnTf) {
   EXPECT_TRUE(from_tf.isApprox(pose_from_fields(pose.translation, pose.rotation).inverse(), 1e-9));
 }
 
+TEST_F(PreviewNodes, TfIsStampedWithBsFrame) {
+  Inbox<tf2_msgs::TFMessage> tf(nh, "/tf");
+  ASSERT_TRUE(wait([&] { return tf.connected(); }));
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  next_stamp();
+  const ros::Time of_a = stamp + ros::Duration(0.03);
+  b.show(stamp);
+  a.show(of_a);
+  ASSERT_TRUE(wait([&] { return pose_of(of_a) != nullptr; }));
+  EXPECT_EQ(pose_of(of_a)->dependent_stamp, stamp);
+  EXPECT_TRUE(wait([&] { return tf.messages.back()->transforms[0].header.stamp == stamp; }))
+      << tf.messages.back()->transforms[0].header.stamp << ", b's frame is of " << stamp;
+  EXPECT_EQ(tf.messages.back()->transforms[0].header.frame_id, "eyebug_a_rgb_optical_frame");
+}
+
 TEST_F(PreviewNodes, IntrinsicsCrossTheRadioOnce) {
   ASSERT_TRUE(service_is_back()) << last_outcome();
   ASSERT_TRUE(exchange() && accepted()) << last_outcome();
   const std::size_t without = previews.messages.back()->data.size();
   EXPECT_TRUE(pose_of(stamp)->reference_camera.empty());
-  // b forgets that a knows its camera when a does not answer.
+  // b forgets that a knows its camera when a could not read a preview.
+  previews.listener = [&](const PreviewOfBlocks& asked) {
+    RelativePose pose = *poses.messages.back();
+    pose.exchange = asked.exchange;
+    pose.dependent_stamp = asked.header.stamp;
+    pose.status = RelativePose::MALFORMED;
+    pose.checksum = checksum_of(pose);
+    radio_pose.publish(pose);
+  };
   b.show(next_stamp());
   ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) != nullptr; }));
+  previews.listener = nullptr;
   ASSERT_TRUE(exchange() && accepted()) << last_outcome();
   EXPECT_EQ(previews.messages.back()->data.size(), without + kCameraBytes);
 }
@@ -111,6 +136,68 @@ TEST_F(PreviewNodes, ASilentReferenceLetsBsFrameGoOutWhole) {
   EXPECT_NE(event_of(b_events, stamp)->reason.find("eyebug_a"), std::string::npos)
       << event_of(b_events, stamp)->reason;
   EXPECT_TRUE(service_is_back()) << last_outcome();
+}
+
+TEST_F(PreviewNodes, BHearsThatNoFrameOfAIsNearInTime) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  const ros::Time of_a = stamp;
+  b.show(stamp += ros::Duration(3.7));
+  ASSERT_TRUE(wait([this] { return event_of(b_events, stamp) != nullptr; }));
+  EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  ASSERT_TRUE(wait([this] { return poses.messages.back()->dependent_stamp == stamp; }));
+  EXPECT_EQ(poses.messages.back()->status, RelativePose::NO_FRAME);
+  EXPECT_EQ(poses.messages.back()->header.stamp, of_a);
+}
+
+TEST_F(PreviewNodes, MotionDuringAnExchangeIsSaidByBoth) {
+  const ros::Duration later(0.4);
+  CameraOfRobot a_moved(nh, "eyebug_a", test_motion(0.05, 3.0));
+  CameraOfRobot b_moved(nh, "eyebug_b", test_motion(0.2, 24.0));
+  ASSERT_TRUE(wait([&] { return a_moved.connected() && b_moved.connected(); }));
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  // a has its later frame when it is asked, b when it is answered.
+  next_stamp();
+  b.show(stamp);
+  b_moved.show(stamp + later);
+  ASSERT_TRUE(wait([this] { return previews.messages.back()->header.stamp == stamp; }));
+  a.show(stamp);
+  ASSERT_TRUE(wait([&] { return motion_of(b_motions, stamp) != nullptr; })) << last_outcome();
+  EXPECT_TRUE(accepted()) << "motion does the exchange no harm: " << last_outcome();
+  const CameraMotionOfRobot& of_b = *motion_of(b_motions, stamp);
+  EXPECT_EQ(of_b.header.stamp, stamp + later);
+  EXPECT_EQ(of_b.header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_EQ(of_b.peer, "eyebug_a");
+  EXPECT_EQ(of_b.exchange, pose_of(stamp)->exchange);
+  ASSERT_EQ(of_b.outcome, CameraMotionOfRobot::MOVED);
+  const Pose true_motion = test_motion(0.2, 24.0) * kTruth.inverse();
+  const Pose motion = pose_from_fields(of_b.translation, of_b.rotation);
+  EXPECT_LT(translation_error(motion, true_motion), 0.02);
+  EXPECT_LT(rotation_error(motion, true_motion), 0.5);
+  EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"moved", "deg", "tf"})) << heard_;
+
+  next_stamp();
+  a.show(stamp);
+  a_moved.show(stamp + later);
+  b.show(stamp);
+  ASSERT_TRUE(wait([&] { return motion_of(a_motions, stamp) != nullptr; })) << last_outcome();
+  const CameraMotionOfRobot& of_a = *motion_of(a_motions, stamp);
+  EXPECT_EQ(of_a.peer, "eyebug_b");
+  ASSERT_EQ(of_a.outcome, CameraMotionOfRobot::MOVED);
+  EXPECT_NEAR(of_a.degrees, 3.0f, 0.5f);
+}
+
+TEST_F(PreviewNodes, RobotsThatStandStillAreSaidToStandStill) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  const std::size_t said = a_motions.messages.size() + b_motions.messages.size();
+  ASSERT_TRUE(exchange()) << last_outcome();
+  wait([] { return false; }, 0.3);
+  EXPECT_EQ(a_motions.messages.size() + b_motions.messages.size(), said) << "no newer frame";
+  next_stamp();
+  a.show(stamp);
+  a.show(stamp + ros::Duration(0.4));
+  b.show(stamp);
+  ASSERT_TRUE(wait([&] { return motion_of(a_motions, stamp) != nullptr; })) << last_outcome();
+  EXPECT_EQ(motion_of(a_motions, stamp)->outcome, CameraMotionOfRobot::STILL);
 }
 
 TEST_F(PreviewNodes, ASilentDependentCostsNothing) {

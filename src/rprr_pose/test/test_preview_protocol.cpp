@@ -120,6 +120,43 @@ TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
   EXPECT_EQ(pose().status, PoseStatus::kAccepted);
 }
 
+TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
+  for (const double seconds : {3.7, -3.7}) {
+    SCOPED_TRACE(seconds);
+    at_a = at_b = {};
+    dependent = make_preview_dependent(options_for("b", "a"));
+    reference = make_preview_reference(options_for("a", "b"));
+    const Stamp stamp = from_seconds(100.0);
+    reference->offer(frame_a(stamp), 0, at_a);
+    dependent->offer(frame_b(stamp + from_seconds(seconds)), 0, at_b);
+    reference->receive(at_b.send.at(0), 0, at_a);
+    for (const double later : {0.1, 0.2, 0.3, 0.4}) {  // frames go on, and none is of that time
+      reference->offer(frame_a(stamp + from_seconds(later)), from_seconds(later), at_a);
+      reference->tick(from_seconds(later), at_a);
+    }
+    EXPECT_TRUE(at_a.send.empty()) << "its frame may be about to arrive";
+    reference->tick(from_seconds(0.6), at_a);
+    ASSERT_EQ(at_a.send.size(), 1u);
+    EXPECT_EQ(pose().status, PoseStatus::kNoFrame);
+    EXPECT_EQ(pose().stamp, stamp + from_seconds(0.4))
+        << "of a frame of its own: clocks are compared by it";
+    EXPECT_TRUE(at_a.decisions.empty()) << "nothing is sent for it";
+    dependent->receive(at_a.send[0], from_seconds(0.6), at_b);
+    ASSERT_EQ(at_b.decisions.size(), 1u);
+    EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
+    EXPECT_NE(at_b.decisions[0].reason.find("clocks"), std::string::npos);
+    reference->tick(from_seconds(2.0), at_a);
+    EXPECT_EQ(at_a.send.size(), 1u) << "once";
+  }
+}
+
+TEST_F(PreviewProtocol, AReferenceWithoutAFrameStaysSilent) {
+  dependent->offer(frame_b(), 0, at_b);
+  reference->receive(at_b.send.at(0), 0, at_a);
+  reference->tick(from_seconds(2.0), at_a);
+  EXPECT_TRUE(at_a.send.empty());
+}
+
 TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) {
   dependent->set_radio({false, {}, 0.0}, 0, at_b);
   for (Stamp stamp = 1000; stamp < 1003; ++stamp) dependent->offer(frame_b(stamp), stamp, at_b);
@@ -191,7 +228,11 @@ TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
   dependent->offer(frame_b(later), now, at_b);
   reference->receive(at_b.send.at(0), now, at_a);
   EXPECT_TRUE(at_a.send.empty()) << "its own frame may be about to arrive";
-  reference->tick(now + from_seconds(0.2), at_a);
+  for (Stamp stamp = 4000; stamp < 4006; ++stamp) {  // a camera's usual rate
+    now += from_seconds(0.033);
+    reference->offer(frame_a(stamp), now, at_a);
+    reference->tick(now, at_a);
+  }
   ASSERT_EQ(at_a.send.size(), 1u);
   EXPECT_EQ(pose().status, PoseStatus::kAccepted);
 }

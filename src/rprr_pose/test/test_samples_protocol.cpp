@@ -206,6 +206,19 @@ TEST(SamplesProtocol, ASilentReferenceLetsBGoOutWhole) {
   EXPECT_EQ(pair.at_dependent[0].exchange, 0u);
 }
 
+TEST(SamplesProtocol, FramesThatCannotBePairedAreNotCalledSilence) {
+  Pair pair;
+  pair.offer(frame_a(from_seconds(103.7)), frame_b(from_seconds(100.0)));
+  for (int k = 1; k < 25; ++k) {  // frames go on
+    pair.run(from_seconds(0.1));
+    pair.offer(nullptr, frame_b(from_seconds(100.0 + 0.1 * k)));
+  }
+  ASSERT_FALSE(pair.at_dependent.empty());
+  EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendWhole);
+  EXPECT_NE(pair.at_dependent[0].reason.find("clocks"), std::string::npos)
+      << pair.at_dependent[0].reason;
+}
+
 TEST(SamplesProtocol, ASilentDependentTimesOut) {
   Pair pair;
   pair.offer(frame_a(), nullptr);

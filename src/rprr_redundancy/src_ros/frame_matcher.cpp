@@ -14,13 +14,15 @@ constexpr std::size_t kMatchedKept = 10;
 
 }  // namespace
 
-FrameMatcher::FrameMatcher(std::size_t frames_held, double patience_seconds, Matched matched,
-                           Missed missed, std::function<void()> restarted)
+FrameMatcher::FrameMatcher(std::size_t frames_held, double patience_seconds,
+                           const std::string& robot, Health& health, Matched matched,
+                           std::function<void()> restarted)
     : frames_(frames_held),
       patience_(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(patience_seconds))),
+      robot_(robot),
+      health_(health),
       matched_(std::move(matched)),
-      missed_(std::move(missed)),
       restarted_(std::move(restarted)) {
 }
 
@@ -41,10 +43,7 @@ void FrameMatcher::add_frame(const RgbdFramePtr& frame) {
 
 void FrameMatcher::add_event(const rprr_msgs::ExchangeEventConstPtr& event) {
   if (const RgbdFramePtr frame = find(to_stamp(event->header.stamp))) return match(event, frame);
-  if (waiting_.size() >= kWaitingEvents) {
-    missed_(waiting_.front().event);
-    waiting_.pop_front();
-  }
+  if (waiting_.size() >= kWaitingEvents) give_up_oldest();
   waiting_.push_back({event, Clock::now() + patience_});
 }
 
@@ -65,10 +64,17 @@ RgbdFramePtr FrameMatcher::find(Stamp stamp) const {
 }
 
 void FrameMatcher::tick() {
-  while (!waiting_.empty() && waiting_.front().deadline <= Clock::now()) {
-    missed_(waiting_.front().event);
-    waiting_.pop_front();
-  }
+  while (!waiting_.empty() && waiting_.front().deadline <= Clock::now()) give_up_oldest();
+}
+
+void FrameMatcher::give_up_oldest() {
+  health_.error("frame not held",
+                "the exchange with '" + waiting_.front().event->peer +
+                    "' speaks of a frame that is not held (any more): its stamp must be that of "
+                    "an image on /" +
+                    robot_ +
+                    "/camera/rgb/image_rect_color; raise ~frames_held if exchanges are slow");
+  waiting_.pop_front();
 }
 
 }  // namespace rprr

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <string>
 
 #include "rprr_geometry_ros/frame_buffer.hpp"
+#include "rprr_geometry_ros/health.hpp"
 
 namespace rprr {
 
@@ -16,11 +18,11 @@ namespace rprr {
 class FrameMatcher {
  public:
   using Matched = std::function<void(const rprr_msgs::ExchangeEventConstPtr&, const RgbdFramePtr&)>;
-  using Missed = std::function<void(const rprr_msgs::ExchangeEventConstPtr&)>;
 
-  /// restarted: time went back (a bag that starts again), so stamps mean other frames from now on.
-  FrameMatcher(std::size_t frames_held, double patience_seconds, Matched matched, Missed missed,
-               std::function<void()> restarted);
+  /// Health, which must live longer, is told of events whose frame does not come. restarted: time
+  /// went back (a bag that starts again), so stamps mean other frames from now on.
+  FrameMatcher(std::size_t frames_held, double patience_seconds, const std::string& robot,
+               Health& health, Matched matched, std::function<void()> restarted);
 
   void add_frame(const RgbdFramePtr& frame);
   void add_event(const rprr_msgs::ExchangeEventConstPtr& event);
@@ -36,12 +38,14 @@ class FrameMatcher {
 
   void match(const rprr_msgs::ExchangeEventConstPtr& event, const RgbdFramePtr& frame);
   RgbdFramePtr find(Stamp stamp) const;
+  void give_up_oldest();
 
   FrameBuffer frames_;
   std::deque<RgbdFramePtr> matched_frames_;  // kept longer: exchanges may refer to them again
   Clock::duration patience_;
+  std::string robot_;
+  Health& health_;
   Matched matched_;
-  Missed missed_;
   std::function<void()> restarted_;
   std::deque<Waiting> waiting_;
 };

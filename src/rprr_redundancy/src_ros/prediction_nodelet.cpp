@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "accepted_pose.hpp"
 #include "frame_matcher.hpp"
 #include "outgoing_message.hpp"
 #include "rprr_geometry/block_mask_pair.hpp"
@@ -64,9 +65,9 @@ class PredictionNodelet : public nodelet::Nodelet {
     prediction_ = nh.advertise<rprr_msgs::BlockMask>(prefix + "prediction", 4);
     worker_ = std::make_unique<Worker>(8);
     matcher_ = std::make_unique<FrameMatcher>(
-        static_cast<std::size_t>(frames_held), wait_for_frame,
+        static_cast<std::size_t>(frames_held), wait_for_frame, robot_, *health_,
         [this](const auto& event, const auto& frame) { on_match(event, frame); },
-        [this](const auto& event) { on_miss(*event); }, [this] { sent_ = RecentStamps(); });
+        [this] { sent_ = RecentStamps(); });
     images_ = std::make_unique<RgbdSubscriber>(
         nh, private_nh, robot_, *health_,
         [this](const RgbdFramePtr& frame) { matcher_->add_frame(frame); });
@@ -100,34 +101,24 @@ class PredictionNodelet : public nodelet::Nodelet {
     }
   }
 
-  void on_miss(const rprr_msgs::ExchangeEvent& event) {
-    health_->error("frame not held",
-                   "the exchange with '" + event.peer +
-                       "' speaks of a frame that is not held (any more): its stamp must be that of "
-                       "an image on /" +
-                       robot_ +
-                       "/camera/rgb/image_rect_color; raise ~frames_held if exchanges are slow");
-  }
-
   void predict(const rprr_msgs::ExchangeEvent& event, const RgbdFrame& frame) {
-    if (event.pose.status != rprr_msgs::RelativePose::ACCEPTED) {
-      return health_->error("no pose", "asked for a prediction without an accepted pose");
-    }
-    ByteReader reader{ByteView(event.peer_camera)};
-    const Result<Camera> camera = get_camera(reader);
-    if (!camera) {
-      return health_->error("peer camera", "camera of '" + event.peer + "': " + camera.reason() +
-                                               "; its frame will come whole");
-    }
-    const Pose m_ab = pose_from_fields(event.pose.translation, event.pose.rotation);
-    if (!is_rigid(m_ab)) {
-      return health_->error("pose unusable", "the pose of the exchange with '" + event.peer +
-                                                 "' is no rigid motion; its frame will come whole");
+    const Result<AcceptedPose> found = read_accepted_pose(event);
+    if (!found) {
+      return health_->error("exchange unusable", found.reason() + "; its frame will come whole");
     }
     const ros::WallTime start = ros::WallTime::now();
     const std::optional<BlockPreview> preview = preview_of(event);
-    const BlockDecision decision = decider_.decide(frame.depth, frame.bgr, frame.camera, *camera,
-                                                   m_ab, preview ? &*preview : nullptr);
+    const BlockDecision decision =
+        decider_.decide(frame.depth, frame.bgr, frame.camera, found->peer_camera, found->m_ab,
+                        preview ? &*preview : nullptr);
+    send(event, decision);
+    health_->show("last prediction, ms",
+                  std::to_string((ros::WallTime::now() - start).toSec() * 1e3));
+    report(decision);
+    if (decision.from_preview) show(event, found->peer_camera, *preview, decision);
+  }
+
+  void send(const rprr_msgs::ExchangeEvent& event, const BlockDecision& decision) {
     auto message = boost::make_shared<rprr_msgs::BlockMask>();
     message->header.stamp = event.pose.dependent_stamp;  // no frame_id: radio bytes
     message->receiver = event.peer;
@@ -135,10 +126,6 @@ class PredictionNodelet : public nodelet::Nodelet {
     message->data = encode_mask_pair(decision.send);
     prediction_.publish(message);
     health_->count("predictions");
-    report(decision);
-    health_->show("last prediction, ms",
-                  std::to_string((ros::WallTime::now() - start).toSec() * 1e3));
-    if (decision.from_preview) show(event, *camera, *preview, decision);
   }
 
   // For people, and only if somebody looks. Both are images of b, so they lie in b's frames.

@@ -13,6 +13,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "accepted_pose.hpp"
 #include "frame_matcher.hpp"
 #include "outgoing_message.hpp"
 #include "rprr_geometry/block_mask.hpp"
@@ -58,9 +59,9 @@ class ValidationNodelet : public nodelet::Nodelet {
     advertise(nh);
     worker_ = std::make_unique<Worker>(8);
     matcher_ = std::make_unique<FrameMatcher>(
-        static_cast<std::size_t>(frames_held), wait_for_frame,
+        static_cast<std::size_t>(frames_held), wait_for_frame, robot_, *health_,
         [this](const auto& event, const auto& frame) { on_match(event, frame); },
-        [this](const auto& event) { on_miss(*event); }, [this] { on_restart(); });
+        [this] { on_restart(); });
     images_ = std::make_unique<RgbdSubscriber>(
         nh, private_nh, robot_, *health_,
         [this](const RgbdFramePtr& frame) { matcher_->add_frame(frame); });
@@ -95,15 +96,6 @@ class ValidationNodelet : public nodelet::Nodelet {
     }
   }
 
-  void on_miss(const rprr_msgs::ExchangeEvent& event) {
-    health_->error("frame not held",
-                   "the exchange with '" + event.peer +
-                       "' speaks of a frame that is not held (any more): its stamp must be that of "
-                       "an image on /" +
-                       robot_ +
-                       "/camera/rgb/image_rect_color; raise ~frames_held if exchanges are slow");
-  }
-
   void on_restart() {
     const std::lock_guard<std::mutex> lock(mutex_);
     outgoing_->restart();
@@ -133,23 +125,16 @@ class ValidationNodelet : public nodelet::Nodelet {
   }
 
   Result<BlockMask> validate(Held& held) {
-    const rprr_msgs::ExchangeEvent& event = *held.event;
-    if (event.pose.status != rprr_msgs::RelativePose::ACCEPTED) {
-      return Error{"asked to send a frame sparse without an accepted pose"};
-    }
-    ByteReader reader{ByteView(event.peer_camera)};
-    const Result<Camera> camera = get_camera(reader);
-    if (!camera) return Error{"camera of '" + peer_ + "': " + camera.reason()};
-    const Pose m_ab = pose_from_fields(event.pose.translation, event.pose.rotation);
-    if (!is_rigid(m_ab)) return Error{"pose of the exchange is no rigid motion"};
-
+    const Result<AcceptedPose> found = read_accepted_pose(*held.event);
+    if (!found) return Error{found.reason()};
     const ros::WallTime start = ros::WallTime::now();
-    BlockMask blocks = validator_.validate(held.frame->depth, held.frame->camera, *camera, m_ab);
+    BlockMask blocks =
+        validator_.validate(held.frame->depth, held.frame->camera, found->peer_camera, found->m_ab);
     held.ms_validate = (ros::WallTime::now() - start).toSec() * 1e3;
     if (validation_publisher_.getNumSubscribers() > 0) {
       rprr_msgs::BlockMask message;
       message.header = held.frame->header;
-      message.exchange = event.exchange;
+      message.exchange = held.event->exchange;
       message.data = encode_mask(blocks);
       validation_publisher_.publish(message);
     }
@@ -184,32 +169,33 @@ class ValidationNodelet : public nodelet::Nodelet {
   }
 
   void publish(const OutgoingDecision& decision, const Held& held) {
-    const rprr_msgs::OutgoingFramePtr message = outgoing_message(*held.frame, decision.exchange);
-    const rprr_msgs::RelativePose& pose = held.event->pose;
-    message->exchange_bytes =
-        held.event->exchange_bytes + static_cast<std::uint32_t>(decision.message_bytes);
-    message->mask_bytes = static_cast<std::uint32_t>(decision.message_bytes);
-    message->ms_pose = held.event->ms_pose;
-    message->ms_validate = static_cast<float>(held.ms_validate);
-    if (decision.sparse) {
-      message->sparse = true;
-      message->reference = peer_;
-      message->reference_stamp = pose.header.stamp;
-      message->translation = pose.translation;
-      message->rotation = pose.rotation;
-      message->mask = encode_mask(decision.mask);
-      message->depth_mask = encode_mask(decision.depth_mask);
-      message->blocks_predicted = static_cast<std::uint32_t>(decision.blocks_predicted);
-      message->blocks_validated = static_cast<std::uint32_t>(decision.blocks_validated);
-    } else {
-      health_->show("last frame whole because", decision.reason);
-    }
+    if (!decision.sparse) health_->show("last frame whole because", decision.reason);
     health_->count(decision.sparse ? "frames sparse" : "frames whole");
-    outgoing_publisher_.publish(message);
+    outgoing_publisher_.publish(message_of(decision, held));
     const BlockGrid grid(held.frame->camera.width, held.frame->camera.height);
     const BlockMask all(grid, true);
     show(*held.frame, decision.sparse ? decision.mask : all,
          decision.sparse ? decision.depth_mask : all);
+  }
+
+  rprr_msgs::OutgoingFramePtr message_of(const OutgoingDecision& decision, const Held& held) const {
+    rprr_msgs::OutgoingFramePtr message = outgoing_message(*held.frame, decision.exchange);
+    message->mask_bytes = static_cast<std::uint32_t>(decision.message_bytes);
+    message->exchange_bytes = held.event->exchange_bytes + message->mask_bytes;
+    message->ms_pose = held.event->ms_pose;
+    message->ms_validate = static_cast<float>(held.ms_validate);
+    if (!decision.sparse) return message;
+    const rprr_msgs::RelativePose& pose = held.event->pose;
+    message->sparse = true;
+    message->reference = peer_;
+    message->reference_stamp = pose.header.stamp;
+    message->translation = pose.translation;
+    message->rotation = pose.rotation;
+    message->mask = encode_mask(decision.mask);
+    message->depth_mask = encode_mask(decision.depth_mask);
+    message->blocks_predicted = static_cast<std::uint32_t>(decision.blocks_predicted);
+    message->blocks_validated = static_cast<std::uint32_t>(decision.blocks_validated);
+    return message;
   }
 
   void show(const RgbdFrame& frame, const BlockMask& mask, const BlockMask& depth_mask) {

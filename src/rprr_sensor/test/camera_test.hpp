@@ -40,6 +40,13 @@ class CameraTest : public testing::Test {
     }
   }
 
+  /// For a node's environment: a home of the test's own, where calibrations are kept.
+  std::string home() const { return "ROS_HOME=" + temporary_.path("home"); }
+  /// Likewise, with a folder's libraries in place of the system's.
+  std::string home_and_libraries(const std::string& folder) const {
+    return "LD_LIBRARY_PATH=" + folder + ":$LD_LIBRARY_PATH " + home();
+  }
+
   bool wait_for_frames(std::size_t count, double seconds = 20.0) {
     return spin_until([&] { return topics_.frames() >= count; }, seconds);
   }
@@ -66,6 +73,14 @@ class CameraTest : public testing::Test {
     const auto camera = camera_from_info(topics_.info.at(stamp));
     ASSERT_TRUE(camera) << camera.reason();
     EXPECT_EQ(camera->width, 640);
+  }
+
+  /// The node has no camera: it says so, naming the library, gives no images, and runs on.
+  void check_no_camera(ChildProcess& camera, const std::string& library) {
+    EXPECT_TRUE(wait_for_message(library + ": ")) << message_;
+    EXPECT_EQ(level_, diagnostic_msgs::DiagnosticStatus::ERROR);
+    EXPECT_NE(trigger(), "") << "no camera runs";
+    EXPECT_TRUE(camera.runs());
   }
 
   bool pause(bool paused) {

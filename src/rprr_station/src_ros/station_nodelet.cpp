@@ -37,6 +37,14 @@ namespace {
 constexpr std::size_t kLongestChunk = 16384;  // bytes; a longer message is a frame in one piece
 constexpr std::size_t kChunksOfAFrame = 32;   // that may wait, of each frame that may
 constexpr unsigned kTicksOfReceipts = 5;      // between receipts that nothing else causes
+constexpr double kClocksApart = 20.0;         // milliseconds; the pairing of frames suffers
+
+// Makes a message only where somebody listens; as a shared pointer nodelets get it without a copy.
+template <typename Make>
+void offer(const ros::Publisher& publisher, const Make& make) {
+  using Message = decltype(make());
+  if (publisher.getNumSubscribers() > 0) publisher.publish(boost::make_shared<Message>(make()));
+}
 
 }  // namespace
 
@@ -208,33 +216,39 @@ class StationNodelet : public nodelet::Nodelet {
     const Robot& robot = robots_.at(frame.robot);
     const std_msgs::Header header = header_of(frame);
     robot.info.publish(info_from_camera(frame.camera, header));
-    if (robot.rgb.getNumSubscribers() > 0) {
-      robot.rgb.publish(
-          boost::make_shared<sensor_msgs::Image>(to_image(header, encodings::BGR8, frame.bgr)));
-    }
-    if (robot.depth.getNumSubscribers() > 0) {
-      robot.depth.publish(boost::make_shared<sensor_msgs::Image>(
-          depth_message(frame, header, parameters_.depth_encoding)));
-    }
-    if (robot.points.getNumSubscribers() > 0) {
-      robot.points.publish(
-          boost::make_shared<sensor_msgs::PointCloud2>(cloud_message(frame, header)));
-    }
-    if (robot.provenance.getNumSubscribers() > 0) {
-      robot.provenance.publish(boost::make_shared<sensor_msgs::Image>(
-          to_image(header, encodings::MONO8, frame.provenance)));
-    }
-    if (frusta_.getNumSubscribers() > 0) {
+    offer(robot.rgb, [&] { return to_image(header, encodings::BGR8, frame.bgr); });
+    offer(robot.depth, [&] { return depth_message(frame, header, parameters_.depth_encoding); });
+    offer(robot.points, [&] { return cloud_message(frame, header); });
+    offer(robot.provenance, [&] { return to_image(header, encodings::MONO8, frame.provenance); });
+    offer(frusta_, [&] {
       visualization_msgs::MarkerArray frusta;
       frusta.markers.push_back(
           frustum_message(frame, header, robot.number, parameters_.frustum_length));
-      frusta_.publish(frusta);
-    }
+      return frusta;
+    });
     publish_scene(frame);
-    rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
-    statistics.latency_ms = static_cast<float>((ros::Time::now() - header.stamp).toSec() * 1e3);
-    statistics_.publish(statistics);
+    publish_statistics(frame, header);
     health_->count(frame.robot + (frame.sparse ? ": sparse frames" : ": whole frames"));
+  }
+
+  void publish_statistics(const RebuiltFrame& frame, const std_msgs::Header& header) {
+    rprr_msgs::PairStatistics statistics = statistics_message(frame, header);
+    statistics.latency_ms = latency_of(frame.robot, header.stamp);
+    statistics_.publish(statistics);
+  }
+
+  // Milliseconds. A clock that is behind cannot be told from a slow radio here, one that is ahead
+  // can.
+  float latency_of(const std::string& robot, const ros::Time& stamp) {
+    const ros::Time now = ros::Time::now();
+    const double ms = (now - stamp).toSec() * 1e3;
+    if (ms < -kClocksApart && !now.isZero()) {  // zero: simulated time has not begun
+      health_->warn("clock of " + robot,
+                    "frames of '" + robot + "' come " + std::to_string(std::lround(-ms)) +
+                        " ms before their stamps: its clock is ahead of the station's by more than "
+                        "that, and latency_ms is off by as much; keep both together with chrony");
+    }
+    return static_cast<float>(ms);
   }
 
   // Frames are kept only while somebody listens: the first scene is that of the next reference.

@@ -10,7 +10,8 @@ namespace rprr {
 
 /// How far two robots' clocks are apart, from the times at which the messages of their exchanges
 /// left and came: as NTP does, from a question and its answer (RFC 5905, section 8). Of the recent
-/// exchanges the one with the shortest way there and back is believed.
+/// exchanges the one with the shortest way there and back is believed. Each bounds the offset, so
+/// that one which contradicts those before tells of a clock that was set.
 class ClockOffset {
  public:
   struct Estimate {
@@ -30,6 +31,7 @@ class ClockOffset {
     double back;
     Stamp at;
   };
+  static bool contradict(const Sample& one, const Sample& other);
   void forget_old(Stamp now);
 
   std::deque<Sample> samples_;

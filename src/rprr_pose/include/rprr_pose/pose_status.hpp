@@ -16,6 +16,7 @@ enum class PoseStatus : std::uint8_t {
   kInconsistent = 6,
   kFreeSpaceViolated = 7,
   kMalformed = 8,
+  kNoFrame = 9,
 };
 
 /// The same in words; empty for kAccepted. Values out of range say so.

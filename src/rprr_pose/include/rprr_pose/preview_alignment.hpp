@@ -76,4 +76,9 @@ struct AlignmentSums {
 bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOptions& options,
            Pose& motion, AlignmentSums& sums);
 
+/// Covariance of the motion, left perturbation (tx ty tz rx ry rz), from sums with their scatter.
+Matrix6 covariance_of(const AlignmentSums& sums);
+/// The standard deviation in the worst direction of a block of it.
+double worst_sigma(const Eigen::Matrix3d& covariance);
+
 }  // namespace rprr

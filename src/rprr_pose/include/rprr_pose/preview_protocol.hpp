@@ -22,8 +22,10 @@ struct PreviewOptions {
   bool lossless_depth = false;  // dependent: readings of the sensor, unchanged, instead of steps
   int colour_quality = 40;      // dependent: of the preview's colours, WebP's 0 to 100
   PreviewPoseOptions search;    // reference
-  Duration step_timeout = from_seconds(1.0);  // dependent: for a's answer; reference: for its frame
-  Duration min_period = 0;                    // dependent: between previews
+  /// Dependent: for a's answer. Reference: half of it is for a frame near b's in time to come; then
+  /// it says that there is none.
+  Duration step_timeout = from_seconds(1.0);
+  Duration min_period = 0;                             // dependent: between previews
   Duration max_stamp_difference = from_seconds(0.05);  // reference: between the robots' frames
   std::size_t frames_kept = 30;                        // reference: recent frames to choose from
   /// Reference: while its radio is busy it refers to a frame that it sent not longer than this ago,

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "rprr_geometry/se3.hpp"
+#include "rprr_pose/pose_frame.hpp"
+
+namespace rprr {
+
+/// How a camera moved between two of its own frames, from the frames alone: a robot need not know
+/// its odometry.
+struct CameraMotion {
+  /// Values are those of rprr_msgs/CameraMotion.
+  enum class Outcome : std::uint8_t {
+    kUnknown = 0,  // too little depth, or a scene that looks the same from elsewhere
+    kStill = 1,    // no more than noise
+    kMoved = 2,
+    kSceneChanged = 3,  // no motion explains both frames: it was large, or what is seen changed
+  };
+  Outcome outcome = Outcome::kUnknown;
+  Pose motion = Pose::Identity();  // with kStill and kMoved: p_later = motion p_earlier, optical
+  double metres = 0.0;             // of it
+  double radians = 0.0;
+  double shared =
+      0.0;  // with kStill and kMoved: share of either view that the other shows, the less
+};
+
+/// Aligned coarse to fine at block resolution, from no motion and a few turns (tested up to 0.2 m
+/// and 18 degrees), without a search. Frames that are not of their camera's size tell nothing.
+CameraMotion camera_motion(const PoseFrame& earlier, const PoseFrame& later);
+
+}  // namespace rprr

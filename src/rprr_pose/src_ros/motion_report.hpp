@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+#include "rprr_geometry_ros/health.hpp"
+#include "rprr_pose/camera_motion.hpp"
+#include "rprr_pose/exchange.hpp"
+
+namespace rprr {
+
+/// Says how far the robot moved while an exchange was under way: on its motion topic and on
+/// /diagnostics. One thread at a time.
+class MotionReport {
+ public:
+  /// Below stale_overlap, the share of the exchange's view that is still seen, the pose counts as
+  /// one of the past and a warning says so.
+  MotionReport(ros::NodeHandle& nh, const std::string& robot, double stale_overlap, Health& health);
+
+  /// The robot's newest frame.
+  void see(const PoseFramePtr& frame) { newest_ = frame; }
+  /// Compares the newest frame with that of an exchange that has just ended with a pose. Nothing is
+  /// said while there is no newer one.
+  void report(const PoseFramePtr& frame, const std::string& peer, std::uint32_t exchange);
+
+ private:
+  void publish(const CameraMotion& motion, const PoseFrame& frame, const std::string& peer,
+               std::uint32_t exchange);
+  void judge(const CameraMotion& motion, double seconds, const std::string& peer);
+
+  const double stale_overlap_;
+  Health& health_;
+  ros::Publisher publisher_;
+  PoseFramePtr newest_;
+  // Peers that share the frames share the answer.
+  PoseFramePtr compared_, compared_to_;
+  CameraMotion motion_;
+};
+
+}  // namespace rprr
