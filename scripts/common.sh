@@ -25,8 +25,9 @@ need_value() { [[ $# -ge 3 && -n $3 ]] || die "$1 needs a value; see --help"; }
 # Build and devel spaces of a sanitizer's build, or the ordinary ones: spaces KIND
 spaces() {
   if [[ -n $1 ]]; then
-    build_space=$root/build/sanitize_$1/build
-    devel_space=$root/build/sanitize_$1/devel
+    # No comma: it would end a linker's option in the middle of a path.
+    build_space=$root/build/sanitize_${1/,/_}/build
+    devel_space=$root/build/sanitize_${1/,/_}/devel
   else
     build_space=$root/build
     devel_space=$root/devel

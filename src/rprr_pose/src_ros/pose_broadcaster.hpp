@@ -13,6 +13,11 @@
 
 namespace rprr {
 
+/// The root of the tree in which the frame is, or what hangs below `above` where that lies between:
+/// so the link to it that was published before is not climbed. Ends also where tf has a loop.
+std::string root_of(const tf2::BufferCore& buffer, const std::string& frame,
+                    const std::string& above);
+
 /// Accepted poses as tf: <a>_rgb_optical_frame -> <b>_rprr_optical_frame, a frame of its own since
 /// b's optical frame usually has a parent; or, with ~tf_target root, to the root of b's tree, so
 /// that both robots hang together. tf2 stores b's pose in a, the inverse of M_ab.
@@ -25,7 +30,7 @@ class PoseBroadcaster {
   void send(const RelativePoseMessage& pose, Health& health);
 
  private:
-  bool to_root(const std::string& robot, Pose& b_in_a, std::string& child, Health& health);
+  bool to_root(const RelativePoseMessage& pose, Pose& b_in_a, std::string& child, Health& health);
 
   bool publish_;
   bool root_;
