@@ -24,7 +24,8 @@ namespace rprr {
 /// publishes; the master is not asked.
 class RadioLinks {
  public:
-  /// The one of this process, for as long as somebody holds it. Needs ros::start().
+  /// The one of this process, for as long as somebody holds it. Before ros::start() it does
+  /// nothing.
   static std::shared_ptr<RadioLinks> of_this_process();
 
   ~RadioLinks();
