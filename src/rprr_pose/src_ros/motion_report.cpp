@@ -13,6 +13,8 @@ namespace {
 
 using Outcome = CameraMotion::Outcome;
 
+const ros::WallDuration kPeriod(0.5);  // some milliseconds each: too much for every exchange
+
 const char* const kRemedy =
     ". Views are right, since an exchange keeps its frames, but the pose on /tf and in "
     "relative_pose is that of their stamps: let robots stand while they exchange, look tf up at "
@@ -53,6 +55,9 @@ void MotionReport::report(const PoseFramePtr& frame, const std::string& peer,
                           std::uint32_t exchange) {
   if (!newest_ || newest_->stamp <= frame->stamp) return;
   if (compared_ != frame || compared_to_ != newest_) {
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (publisher_.getNumSubscribers() == 0 && now < next_) return;
+    next_ = now + kPeriod;
     motion_ = camera_motion(*frame, *newest_);
     compared_ = frame;
     compared_to_ = newest_;

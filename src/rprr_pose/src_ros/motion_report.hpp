@@ -22,7 +22,7 @@ class MotionReport {
   /// The robot's newest frame.
   void see(const PoseFramePtr& frame) { newest_ = frame; }
   /// Compares the newest frame with that of an exchange that has just ended with a pose. Nothing is
-  /// said while there is no newer one.
+  /// said while there is no newer one, and twice a second is enough unless somebody listens.
   void report(const PoseFramePtr& frame, const std::string& peer, std::uint32_t exchange);
 
  private:
@@ -34,6 +34,7 @@ class MotionReport {
   Health& health_;
   ros::Publisher publisher_;
   PoseFramePtr newest_;
+  ros::SteadyTime next_;
   // Peers that share the frames share the answer.
   PoseFramePtr compared_, compared_to_;
   CameraMotion motion_;

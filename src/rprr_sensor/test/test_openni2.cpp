@@ -68,7 +68,9 @@ TEST_F(OpenNi2Test, ExposureAndRateAreSetWhileItRuns) {
   topics_.depth.clear();
   EXPECT_TRUE(spin_until([&] { return topics_.depth.size() == 4; }));
   const ros::Duration three_periods = topics_.depth.rbegin()->first - topics_.depth.begin()->first;
-  EXPECT_GT(three_periods.toSec(), 1.9) << "the first may have been under way before";
+  // The first may have been under way before, and a busy machine stamps some late; at the camera's
+  // own rate it would be a tenth of a second.
+  EXPECT_GT(three_periods.toSec(), 1.0);
 }
 
 TEST_F(OpenNi2Test, UnpluggedItIsFoundAgain) {
