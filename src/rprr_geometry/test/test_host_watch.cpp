@@ -97,6 +97,21 @@ TEST(HostWatch, EveryOutageIsOneRenewal) {
   EXPECT_EQ(host.renewals.size(), 4U);
 }
 
+TEST(HostWatch, ANarrowRadioIsNotTakenForASilentOne) {
+  // A full queue: bytes come every few seconds, and answers take as long as anything.
+  Watched host{[](double t) { return std::fmod(t, 5.0) < 0.25; }, always, 2.0};
+  host.run(120.0);
+  EXPECT_LE(host.renewals.size(), 1U) << "until it knows the radio";
+  host.renewals.clear();
+  host.run(120.0);
+  EXPECT_TRUE(host.renewals.empty());
+  // Really silent, it is found out all the same.
+  host.reachable = except(10.0, 40.0);
+  host.talks = [](double t) { return t < 10.0; };
+  host.run(60.0);
+  EXPECT_EQ(host.renewals.size(), 1U);
+}
+
 TEST(HostWatch, SaysForHowLongNothingWasAnswered) {
   Watched host{except(10.0, 1000.0), except(10.0, 1000.0)};
   host.run(11.0);

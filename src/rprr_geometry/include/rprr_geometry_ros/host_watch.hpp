@@ -10,7 +10,8 @@ namespace rprr {
 /// Finds out when a host that was out of reach can be reached again, by the bytes that come from it
 /// and, while none come, by probes. Then connections to it are better made anew: TCP doubles its
 /// waiting with every loss, so what was sent into the silence may lie for as long again as that
-/// lasted. A state machine without a clock; `now` is any steady time in nanoseconds.
+/// lasted. Where answers are slow, on a narrow radio, it takes longer to think a host gone. A state
+/// machine without a clock; `now` is any steady time in nanoseconds.
 class HostWatch {
  public:
   enum class Step {
@@ -28,10 +29,14 @@ class HostWatch {
 
  private:
   Step on_answer(Stamp now);
+  void on_bytes(Stamp now);
+  void learn(Duration waited);
+  Duration gone_after() const;
 
   std::optional<Stamp> unanswered_since_;
   std::optional<Stamp> renew_at_;
   Stamp next_probe_ = 0;
+  Duration slowest_ = 0;  // answer so far, forgotten by and by
 };
 
 }  // namespace rprr
