@@ -51,7 +51,7 @@ void HostWatch::on_bytes(Stamp now) {
 }
 
 void HostWatch::learn(Duration waited) {
-  if (waited < kSlow) slowest_ = std::max(waited, slowest_ / 2);
+  if (waited < kSlow) slowest_ = std::max(waited, slowest_ - slowest_ / 8);
 }
 
 Duration HostWatch::gone_after() const {
