@@ -36,7 +36,7 @@ class HostWatch {
   std::optional<Stamp> unanswered_since_;
   std::optional<Stamp> renew_at_;
   Stamp next_probe_ = 0;
-  Duration slowest_ = 0;  // answer so far, forgotten by and by
+  Duration slowest_ = from_seconds(1.0);  // answer so far, forgotten by and by; a guess at first
 };
 
 }  // namespace rprr
