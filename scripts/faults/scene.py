@@ -17,7 +17,7 @@ from recording import Recording  # noqa: E402
 
 from processes import A, B  # noqa: E402
 
-RECEIVED, RECEIVED_DEPTH = 255, 208  # rprr_station/provenance.hpp
+RECEIVED, RECEIVED_DEPTH = 255, 208  # rprr_view/provenance.hpp
 Truth = collections.namedtuple("Truth", "bgr depth played")
 
 

@@ -12,6 +12,8 @@
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/fill.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace {
 

@@ -16,6 +16,8 @@
 #include "measure.hpp"
 #include "rprr_codec/colour_layers.hpp"
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/camera.hpp"
 
 namespace rprr {

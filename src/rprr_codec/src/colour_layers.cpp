@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_codec/colour_layers.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #include <algorithm>
 #include <opencv2/core.hpp>

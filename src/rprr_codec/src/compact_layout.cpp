@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "block_packing.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr {
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/mask_wire.hpp"
 #include "wire_numbers.hpp"
 
 namespace rprr {

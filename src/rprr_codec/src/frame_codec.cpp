@@ -7,7 +7,8 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

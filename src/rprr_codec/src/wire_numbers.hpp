@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

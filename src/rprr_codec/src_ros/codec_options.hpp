@@ -4,8 +4,8 @@
 #include <rprr_codec/EncoderConfig.h>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_codec/send_queue.hpp"
-#include "rprr_geometry_ros/parameters.hpp"
+#include "rprr_radio/send_queue.hpp"
+#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 

@@ -23,11 +23,13 @@
 #include "codec_options.hpp"
 #include "outgoing_conversion.hpp"
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_codec/send_queue.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/radio_links.hpp"
-#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_radio/send_queue.hpp"
+#include "rprr_radio_ros/radio_links.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/worker.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dhcm/bit_io.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,8 @@
 #include <random>
 
 #include "rprr_geometry/camera.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

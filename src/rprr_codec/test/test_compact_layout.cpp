@@ -5,8 +5,9 @@
 
 #include <algorithm>
 
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/camera.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
 
 namespace rprr {
 namespace {

@@ -8,7 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rprr_codec/dhcm.hpp"
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

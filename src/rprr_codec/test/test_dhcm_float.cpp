@@ -7,7 +7,8 @@
 #include <random>
 
 #include "rprr_codec/dhcm.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -4,7 +4,9 @@
 #include <random>
 
 #include "rprr_codec/dhcm.hpp"
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

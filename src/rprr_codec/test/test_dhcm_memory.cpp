@@ -6,7 +6,8 @@
 #include <new>
 
 #include "rprr_codec/dhcm.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace {
 

@@ -8,7 +8,9 @@
 #include "dhcm/body_decoder.hpp"
 #include "dhcm/body_encoder.hpp"
 #include "dhcm/model.hpp"
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 namespace {

@@ -12,7 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rprr_codec/dhcm.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
 
 namespace rprr {
 namespace {

@@ -8,7 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "synthetic.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

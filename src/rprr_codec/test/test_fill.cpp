@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "rprr_codec/colour_codec.hpp"
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "synthetic.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

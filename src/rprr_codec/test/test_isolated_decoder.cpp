@@ -14,7 +14,8 @@
 #include <thread>
 
 #include "rprr_codec/colour_codec.hpp"
-#include "synthetic.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

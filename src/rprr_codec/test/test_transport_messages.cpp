@@ -8,8 +8,9 @@
 #include <limits>
 #include <random>
 
-#include "rprr_geometry_ros/conversions.hpp"
-#include "synthetic.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 #include "transport/colour_message.hpp"
 #include "transport/depth_message.hpp"
 

@@ -16,9 +16,9 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "rprr_geometry/wire.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "synthetic.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_synthetic/coded_images.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

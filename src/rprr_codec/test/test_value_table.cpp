@@ -4,6 +4,7 @@
 #include <random>
 
 #include "dhcm/values.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 namespace {

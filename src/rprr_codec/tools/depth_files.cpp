@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace fs = std::filesystem;
 

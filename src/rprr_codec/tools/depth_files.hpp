@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

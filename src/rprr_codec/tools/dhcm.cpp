@@ -10,6 +10,7 @@
 #include "file_jobs.hpp"
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "rprr_eval/consistency.hpp"
-#include "rprr_geometry/preview.hpp"
 #include "rprr_pose/preview_pose.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 namespace {

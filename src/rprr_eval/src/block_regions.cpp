@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_eval/block_regions.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,8 @@
 #include "rprr_eval/metrics.hpp"
 #include "rprr_eval/processor_time.hpp"
 #include "rprr_eval/summary.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -10,10 +10,11 @@
 #include "rprr_eval/exchange_registration.hpp"
 #include "rprr_eval/summary.hpp"
 #include "rprr_eval/turntable.hpp"
-#include "rprr_sensor/motion.hpp"
-#include "rprr_sensor/random.hpp"
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
+#include "rprr_geometry/motion.hpp"
+#include "rprr_synthetic/random.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -8,10 +8,12 @@
 #include <opencv2/core.hpp>
 
 #include "commands.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_geometry/motion.hpp"
 #include "rprr_redundancy/decision.hpp"
-#include "rprr_sensor/motion.hpp"
 #include "rprr_sensor/tum_folder.hpp"
-#include "rprr_station/view_synthesis.hpp"
+#include "rprr_view/view_synthesis.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

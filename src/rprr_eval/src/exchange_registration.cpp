@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_eval/exchange_registration.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 #include <utility>
 

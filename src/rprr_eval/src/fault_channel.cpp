@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_eval/fault_channel.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #include <algorithm>
 

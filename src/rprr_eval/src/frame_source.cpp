@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "rprr_geometry/block_grid.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr {
 namespace {

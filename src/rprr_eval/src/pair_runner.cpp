@@ -4,9 +4,13 @@
 #include <chrono>
 #include <utility>
 
+#include "rprr_geometry/motion.hpp"
+#include "rprr_radio/frame_chunk.hpp"
 #include "rprr_redundancy/decision.hpp"
-#include "rprr_sensor/motion.hpp"
-#include "rprr_station/provenance.hpp"
+#include "rprr_view/provenance.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

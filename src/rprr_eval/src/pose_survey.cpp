@@ -5,8 +5,8 @@
 
 #include "rprr_eval/processor_time.hpp"
 #include "rprr_eval/summary.hpp"
-#include "rprr_sensor/motion.hpp"
-#include "rprr_sensor/random.hpp"
+#include "rprr_geometry/motion.hpp"
+#include "rprr_synthetic/random.hpp"
 
 namespace rprr {
 namespace {

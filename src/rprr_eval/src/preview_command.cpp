@@ -13,9 +13,10 @@
 #include "json_output.hpp"
 #include "rprr_eval/metrics.hpp"
 #include "rprr_eval/summary.hpp"
-#include "rprr_geometry/preview.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_sensor/tum_folder.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 namespace {

@@ -9,7 +9,8 @@
 
 #include "rprr_eval/processor_time.hpp"
 #include "rprr_eval/summary.hpp"
-#include "rprr_sensor/random.hpp"
+#include "rprr_synthetic/random.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -8,16 +8,16 @@
 
 namespace rprr {
 
-/// Where the profiles are: beside the installed library (lib/../share), else in the source tree
-/// that this was built from.
+/// Where the profiles are: package rprr_bringup has them in the share folder of the space, devel or
+/// install, whose lib folder this library lies in. Empty if the library cannot be found.
 inline std::string profile_folder() {
   Dl_info info;
-  if (dladdr(reinterpret_cast<const void*>(&profile_folder), &info) != 0 && info.dli_fname) {
-    const auto installed = std::filesystem::absolute(info.dli_fname).parent_path().parent_path() /
-                           "share/rprr_eval/config/profiles";
-    if (std::filesystem::exists(installed)) return installed.string();
+  if (dladdr(reinterpret_cast<const void*>(&profile_folder), &info) == 0 || !info.dli_fname) {
+    return {};
   }
-  return RPRR_EVAL_SOURCE_DIR "/config/profiles";
+  return (std::filesystem::absolute(info.dli_fname).parent_path().parent_path() /
+          "share/rprr_bringup/config/profiles")
+      .string();
 }
 
 }  // namespace rprr

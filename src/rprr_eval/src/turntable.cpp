@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "rprr_eval/summary.hpp"
-#include "rprr_sensor/motion.hpp"
+#include "rprr_geometry/motion.hpp"
 
 namespace rprr {
 namespace {

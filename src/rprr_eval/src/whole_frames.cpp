@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "rprr_eval/pair_curves.hpp"
+#include "rprr_radio/frame_chunk.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -20,7 +20,7 @@
 #include "rprr_eval/contact_sheet.hpp"
 #include "rprr_eval/exchange_log.hpp"
 #include "rprr_eval/metrics.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 namespace {

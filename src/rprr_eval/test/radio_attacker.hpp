@@ -12,8 +12,8 @@
 
 #include "pair_topics.hpp"
 #include "rprr_codec/encoded_frame.hpp"
-#include "rprr_geometry/wire.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_sensor/motion.hpp"
+#include "rprr_geometry/motion.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 

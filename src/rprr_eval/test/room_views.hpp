@@ -4,9 +4,10 @@
 #include <memory>
 
 #include "rprr_eval/frame_source.hpp"
-#include "rprr_sensor/motion.hpp"
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
+#include "rprr_geometry/motion.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
 #include "rprr_sensor/tum_writer.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
 
 namespace rprr {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/random.hpp"
+#include "rprr_synthetic/random.hpp"
 
 namespace rprr {
 namespace {

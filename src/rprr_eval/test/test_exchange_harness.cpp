@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "rprr_eval/metrics.hpp"
+#include "rprr_geometry/motion.hpp"
 #include "rprr_pose/samples_protocol.hpp"
-#include "rprr_sensor/motion.hpp"
+#include "rprr_wire/camera_wire.hpp"
 #include "synthetic_walk.hpp"
 
 namespace rprr {

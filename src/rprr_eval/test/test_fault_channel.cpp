@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rprr_eval/fault_channel.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

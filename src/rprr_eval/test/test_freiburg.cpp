@@ -12,11 +12,11 @@
 #include "launch_process.hpp"
 #include "pair_topics.hpp"
 #include "rprr_eval/metrics.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_sensor/motion.hpp"
-#include "rprr_station/provenance.hpp"
+#include "rprr_geometry/motion.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
+#include "rprr_view/provenance.hpp"
 #include "synthetic_walk.hpp"
-#include "temporary_folder.hpp"
 
 namespace rprr {
 namespace {

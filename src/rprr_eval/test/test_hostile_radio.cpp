@@ -11,14 +11,16 @@
 
 #include "mutator.hpp"
 #include "rprr_codec/dhcm.hpp"
-#include "rprr_codec/frame_chunk.hpp"
-#include "rprr_codec/send_queue.hpp"
 #include "rprr_eval/exchange_harness.hpp"
-#include "rprr_geometry/block_mask_pair.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
+#include "rprr_radio/frame_chunk.hpp"
+#include "rprr_radio/send_queue.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_station/station.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/mask_wire.hpp"
 #include "synthetic_walk.hpp"
 
 namespace rprr {

@@ -87,7 +87,7 @@ class Install(unittest.TestCase):
 
     def test_launch_files_and_what_they_include(self):
         for file in sorted((script_test.ROOT / "launch").glob("*.launch")):
-            arguments = ("rprr_eval", file.name, "role:=a", "bag:=none", "output:=none")
+            arguments = ("rprr_bringup", file.name, "role:=a", "bag:=none", "output:=none")
             self.assertIn("/", self.run_installed("roslaunch", "--nodes", *arguments))
             for used in self.run_installed("roslaunch", "--files", *arguments).split():
                 self.expect_installed(used)
@@ -144,7 +144,7 @@ class Install(unittest.TestCase):
         self.assertTrue(any(pair.get("pose", {}).get("accepted") for pair in pairs), pairs)
         self.run_installed("rosrun", "rprr_codec", "dhcm", "encode", recording / "depth", "-o",
                            self.folder / "coded")
-        self.assertIn("Usage", self.run_installed("rosrun", "rprr_eval", "keep_running", "--help"))
+        self.assertIn("Usage", self.run_installed("rosrun", "rprr_bringup", "keep_running", "--help"))
 
     def start_demo(self, output, standalone):
         recording = self.folder / "synthetic.bag"
@@ -154,7 +154,7 @@ class Install(unittest.TestCase):
         port = free_port()
         with open(output / "roslaunch.log", "wb") as log:
             return subprocess.Popen(
-                ["roslaunch", "--skip-log-check", "-p", str(port), "rprr_eval", "demo.launch",
+                ["roslaunch", "--skip-log-check", "-p", str(port), "rprr_bringup", "demo.launch",
                  f"bag:={recording}", f"output:={output}", "exchanges:=4",
                  f"standalone:={standalone}"],
                 env={**self.environment, "ROS_MASTER_URI": f"http://localhost:{port}",

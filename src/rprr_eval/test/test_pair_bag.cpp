@@ -7,7 +7,7 @@
 
 #include "launch_process.hpp"
 #include "pair_topics.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "rprr_eval/curve_comparison.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 #include "synthetic_walk.hpp"
-#include "temporary_folder.hpp"
 
 namespace rprr {
 namespace {

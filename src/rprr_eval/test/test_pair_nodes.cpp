@@ -10,8 +10,9 @@
 #include "radio_attacker.hpp"
 #include "recorded_pair.hpp"
 #include "rprr_eval/metrics.hpp"
-#include "rprr_station/provenance.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
+#include "rprr_view/provenance.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

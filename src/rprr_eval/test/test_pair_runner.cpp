@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "rprr_synthetic/temporary_folder.hpp"
 #include "synthetic_walk.hpp"
-#include "temporary_folder.hpp"
 
 namespace rprr {
 namespace {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <set>
 
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
 namespace {
 
-const std::string kShipped = RPRR_EVAL_PROFILES;
+const std::string kShipped = RPRR_PROFILES;
 
 std::set<std::string> keys_of(const std::string& path) {
   std::set<std::string> keys;

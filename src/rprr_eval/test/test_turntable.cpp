@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rprr_sensor/motion.hpp"
+#include "rprr_geometry/motion.hpp"
 
 namespace rprr {
 namespace {

@@ -25,23 +25,6 @@ TEST(Camera, AxesFollowRep103) {
   EXPECT_GT(kCamera.unproject(320, 470, 1.0).y(), 0.0) << "y points down";
 }
 
-TEST(Camera, WireRoundTripIsTheRoundedCamera) {
-  ByteWriter writer;
-  put_camera(writer, kCamera);
-  EXPECT_EQ(writer.size(), kCameraBytes);
-  ByteReader reader(writer.bytes());
-  const Result<Camera> back = get_camera(reader);
-  ASSERT_TRUE(back) << back.reason();
-  EXPECT_EQ(camera_hash(*back), camera_hash(kCamera));
-  EXPECT_EQ(back->fx, rounded_for_wire(kCamera).fx);
-}
-
-TEST(Camera, HashTellsCamerasApart) {
-  Camera other = kCamera;
-  other.cx += 0.01;
-  EXPECT_NE(camera_hash(other), camera_hash(kCamera));
-}
-
 TEST(Camera, ImpossibleIntrinsicsAreRefused) {
   Camera bad = kCamera;
   bad.fx = std::numeric_limits<double>::quiet_NaN();
@@ -52,14 +35,6 @@ TEST(Camera, ImpossibleIntrinsicsAreRefused) {
   bad = kCamera;
   bad.height = kMaxImageSide + 1;
   EXPECT_FALSE(bad.valid());
-  ByteWriter writer;
-  bad = kCamera;
-  bad.fy = -1;
-  put_camera(writer, bad);
-  ByteReader reader(writer.bytes());
-  EXPECT_FALSE(get_camera(reader));
-  ByteReader shortened(ByteView(writer.bytes()).first(kCameraBytes - 1));
-  EXPECT_FALSE(get_camera(shortened));
 }
 
 }  // namespace

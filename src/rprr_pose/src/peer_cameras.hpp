@@ -6,6 +6,7 @@
 #include "rprr_geometry/camera.hpp"
 #include "rprr_pose/icp_bd.hpp"
 #include "rprr_pose/samples_wire.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 

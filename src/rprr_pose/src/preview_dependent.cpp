@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "rprr_pose/preview_protocol.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

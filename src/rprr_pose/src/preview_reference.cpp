@@ -7,6 +7,8 @@
 
 #include "recent_frames.hpp"
 #include "rprr_pose/preview_protocol.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

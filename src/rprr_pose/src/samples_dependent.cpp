@@ -8,6 +8,7 @@
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_pose/samples_wire.hpp"
 #include "rprr_pose/update_wire.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

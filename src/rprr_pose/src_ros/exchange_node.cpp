@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_pose_ros/message_conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 namespace {

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "motion_report.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/radio_links.hpp"
-#include "rprr_geometry_ros/rgbd_subscriber.hpp"
-#include "rprr_geometry_ros/sender_watch.hpp"
-#include "rprr_geometry_ros/worker.hpp"
 #include "rprr_pose/clock_offset.hpp"
 #include "rprr_pose/exchange.hpp"
+#include "rprr_radio_ros/radio_links.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/rgbd_subscriber.hpp"
+#include "rprr_ros/sender_watch.hpp"
+#include "rprr_ros/worker.hpp"
 
 namespace rprr {
 

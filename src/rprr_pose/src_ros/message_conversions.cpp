@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_pose_ros/message_conversions.hpp"
 
-#include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 

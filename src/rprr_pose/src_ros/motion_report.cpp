@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "rprr_geometry_ros/health.hpp"
 #include "rprr_pose/camera_motion.hpp"
 #include "rprr_pose/exchange.hpp"
+#include "rprr_ros/health.hpp"
 
 namespace rprr {
 

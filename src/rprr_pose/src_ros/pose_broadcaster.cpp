@@ -4,7 +4,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <tf2/exceptions.h>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "transforms.hpp"
 
 namespace rprr {

@@ -7,9 +7,9 @@
 
 #include <string>
 
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/parameters.hpp"
 #include "rprr_pose/messages.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 

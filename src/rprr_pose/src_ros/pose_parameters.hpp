@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "rprr_geometry_ros/parameters.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "tf_prior.hpp"
 
 namespace rprr {

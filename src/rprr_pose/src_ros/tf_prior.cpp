@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "transforms.hpp"
 
 namespace rprr {

@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_wire/bytes.hpp"
 #include "textured_views.hpp"
 
 namespace rprr {

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "exchange_bench.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "rprr_pose_ros/message_conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_wire/bytes.hpp"
 #include "synthetic_views.hpp"
 
 namespace rprr {

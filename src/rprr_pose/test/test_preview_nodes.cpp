@@ -11,7 +11,9 @@
 #include <limits>
 
 #include "preview_bench.hpp"
-#include "rprr_geometry/preview.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 namespace {

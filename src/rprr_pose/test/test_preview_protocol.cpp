@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 #include "textured_views.hpp"
 
 namespace rprr {

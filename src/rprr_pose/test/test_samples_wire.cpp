@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 #include "synthetic_views.hpp"
 
 namespace rprr {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "synthetic_views.hpp"
 #include "transforms.hpp"
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 #include "synthetic_views.hpp"
 
 namespace rprr {

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "colour_gain.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr {
 namespace {

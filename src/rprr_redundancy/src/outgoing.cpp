@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 

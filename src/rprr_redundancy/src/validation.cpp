@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/pixel_map.hpp"
 
 namespace rprr {

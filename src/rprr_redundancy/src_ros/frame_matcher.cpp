@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 namespace {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <string>
 
-#include "rprr_geometry_ros/frame_buffer.hpp"
-#include "rprr_geometry_ros/health.hpp"
+#include "rprr_ros/frame_buffer.hpp"
+#include "rprr_ros/health.hpp"
 
 namespace rprr {
 

@@ -3,7 +3,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 

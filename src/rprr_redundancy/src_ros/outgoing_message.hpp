@@ -3,7 +3,7 @@
 
 #include <rprr_msgs/OutgoingFrame.h>
 
-#include "rprr_geometry_ros/rgbd_subscriber.hpp"
+#include "rprr_ros/rgbd_subscriber.hpp"
 
 namespace rprr {
 

@@ -16,15 +16,15 @@
 #include "accepted_pose.hpp"
 #include "frame_matcher.hpp"
 #include "outgoing_message.hpp"
-#include "rprr_geometry/block_mask_pair.hpp"
-#include "rprr_geometry/preview.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/parameters.hpp"
-#include "rprr_geometry_ros/point_cloud.hpp"
-#include "rprr_geometry_ros/worker.hpp"
 #include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/parameters.hpp"
+#include "rprr_ros/point_cloud.hpp"
+#include "rprr_ros/worker.hpp"
+#include "rprr_wire/mask_wire.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 namespace {

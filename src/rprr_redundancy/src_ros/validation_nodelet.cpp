@@ -17,14 +17,16 @@
 #include "frame_matcher.hpp"
 #include "outgoing_message.hpp"
 #include "rprr_geometry/block_mask.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/parameters.hpp"
-#include "rprr_geometry_ros/radio_links.hpp"
-#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/sparse_image.hpp"
 #include "rprr_redundancy/validation.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/parameters.hpp"
+#include "rprr_ros/worker.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 

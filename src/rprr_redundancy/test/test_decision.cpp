@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Synthetic truth: a wall with a smooth texture, seen by both, and what one of them sees otherwise.
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_redundancy/decision.hpp"
 
 #include <gtest/gtest.h>

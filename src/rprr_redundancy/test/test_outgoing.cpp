@@ -8,7 +8,8 @@
 #include <map>
 #include <random>
 
-#include "rprr_geometry/block_mask_pair.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/mask_wire.hpp"
 
 namespace rprr {
 namespace {

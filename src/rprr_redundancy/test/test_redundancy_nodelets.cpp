@@ -15,13 +15,15 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "rprr_geometry/block_mask_pair.hpp"
-#include "rprr_geometry/preview.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
 #include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/prediction.hpp"
 #include "rprr_redundancy/validation.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
+#include "rprr_wire/mask_wire.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 namespace {

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_redundancy/prediction.hpp"
 
 namespace rprr {

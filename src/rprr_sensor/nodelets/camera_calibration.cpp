@@ -7,7 +7,7 @@
 #include <cctype>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 namespace {

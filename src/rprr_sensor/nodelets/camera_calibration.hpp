@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "rprr_geometry_ros/health.hpp"
+#include "rprr_ros/health.hpp"
 #include "rprr_sensor/pair_processor.hpp"
 
 namespace rprr {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "rprr_geometry_ros/health.hpp"
+#include "rprr_ros/health.hpp"
 
 namespace rprr {
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {

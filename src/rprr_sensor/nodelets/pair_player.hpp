@@ -12,8 +12,8 @@
 #include <mutex>
 #include <string>
 
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/worker.hpp"
 #include "rprr_sensor/pair_schedule.hpp"
 #include "rprr_sensor_ros/recording.hpp"
 

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {

@@ -15,8 +15,8 @@
 #include <string>
 
 #include "camera_calibration.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/worker.hpp"
 #include "rprr_sensor/device_session.hpp"
 #include "rprr_sensor/pair_processor.hpp"
 #include "rprr_sensor/publish_gate.hpp"

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor/association.hpp"
 #include "rprr_sensor/tum_folder.hpp"
 

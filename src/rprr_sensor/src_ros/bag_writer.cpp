@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {

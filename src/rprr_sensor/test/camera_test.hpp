@@ -12,9 +12,9 @@
 
 #include "camera_topics.hpp"
 #include "child_process.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 #include "synthetic_kinect.hpp"
-#include "temporary_folder.hpp"
 
 namespace rprr {
 

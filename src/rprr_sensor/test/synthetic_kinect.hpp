@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 
 #include "rprr_sensor/pair_processor.hpp"
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
 
 namespace rprr {
 

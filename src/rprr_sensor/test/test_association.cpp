@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "rprr_sensor/random.hpp"
+#include "rprr_synthetic/random.hpp"
 
 namespace rprr {
 namespace {

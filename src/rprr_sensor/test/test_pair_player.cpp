@@ -11,11 +11,11 @@
 
 #include "camera_topics.hpp"
 #include "child_process.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_sensor/random.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor/tum_writer.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/random.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/synthetic_scene.hpp"
-#include "rprr_sensor/trajectory.hpp"
+#include "rprr_synthetic/synthetic_scene.hpp"
+#include "rprr_synthetic/trajectory.hpp"
 #include "synthetic_kinect.hpp"
 
 namespace rprr {

@@ -12,10 +12,10 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 #include "rprr_sensor_ros/recording.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
 namespace {

@@ -8,10 +8,11 @@
 
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/random.hpp"
 #include "rprr_sensor/tum_writer.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/random.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "rprr_sensor/tum_folder.hpp"
 #include "rprr_sensor_ros/recording.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
 namespace {

@@ -7,10 +7,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "rprr_sensor/motion.hpp"
-#include "rprr_sensor/random.hpp"
+#include "rprr_geometry/motion.hpp"
 #include "rprr_sensor/tum_writer.hpp"
-#include "temporary_folder.hpp"
+#include "rprr_synthetic/random.hpp"
+#include "rprr_synthetic/temporary_folder.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "progress.hpp"
-#include "rprr_sensor/sensor_model.hpp"
-#include "rprr_sensor/trajectory.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
+#include "rprr_synthetic/sensor_model.hpp"
+#include "rprr_synthetic/trajectory.hpp"
 
 namespace {
 

@@ -6,7 +6,9 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "block_pixels.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_radio/frame_chunk.hpp"
+#include "rprr_view/block_pixels.hpp"
 
 namespace rprr {
 namespace {

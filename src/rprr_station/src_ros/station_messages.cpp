@@ -5,11 +5,11 @@
 
 #include <limits>
 
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_geometry_ros/point_cloud.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_ros/point_cloud.hpp"
 #include "rprr_station/frustum.hpp"
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
 
 namespace rprr {
 std_msgs::Header header_of(const RebuiltFrame& frame) {

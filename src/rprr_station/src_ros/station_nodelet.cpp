@@ -20,14 +20,15 @@
 #include <string>
 #include <vector>
 
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_geometry_ros/health.hpp"
-#include "rprr_geometry_ros/radio_links.hpp"
-#include "rprr_geometry_ros/sender_watch.hpp"
-#include "rprr_geometry_ros/worker.hpp"
+#include "rprr_radio_ros/radio_links.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_ros/health.hpp"
+#include "rprr_ros/sender_watch.hpp"
+#include "rprr_ros/worker.hpp"
 #include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/silence_watch.hpp"
 #include "rprr_station/station.hpp"
+#include "rprr_wire/bytes.hpp"
 #include "station_messages.hpp"
 #include "station_parameters.hpp"
 

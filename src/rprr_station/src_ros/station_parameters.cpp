@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rprr_geometry_ros/parameters.hpp"
+#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 namespace {

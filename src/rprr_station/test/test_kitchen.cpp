@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "rprr_station/view_synthesis.hpp"
+#include "rprr_view/view_synthesis.hpp"
 
 namespace rprr {
 namespace {

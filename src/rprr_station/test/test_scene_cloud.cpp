@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_station/scene_cloud.hpp"
 
 #include <gtest/gtest.h>

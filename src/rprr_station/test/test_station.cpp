@@ -9,6 +9,9 @@
 #include <random>
 
 #include "rprr_codec/dhcm.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_radio/frame_chunk.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -21,8 +21,10 @@
 #include <vector>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_geometry_ros/conversions.hpp"
-#include "rprr_station/provenance.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_view/provenance.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -10,6 +10,8 @@
 #include "rprr_codec/compact_layout.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 #include "rprr_codec/fill.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

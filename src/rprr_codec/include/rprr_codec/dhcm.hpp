@@ -10,7 +10,7 @@
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -9,7 +9,7 @@
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 
@@ -84,10 +84,5 @@ Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes = nullptr);
 /// the camera's grid, depth_mask within mask, base and layout as above). The payloads inside are
 /// still untrusted.
 Result<EncodedFrame> parse_encoded_frame(ByteView bytes, EncodedSizes* sizes = nullptr);
-
-/// Length of the rprr_msgs/EncodedFrame that carries data_bytes, serialised by ROS.
-constexpr std::size_t encoded_message_bytes(std::size_t frame_id_length, std::size_t data_bytes) {
-  return ros_header_bytes(frame_id_length) + 4 + ros_array_bytes(data_bytes);
-}
 
 }  // namespace rprr

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "colour/checks.hpp"
+#include "rprr_wire/bytes.hpp"
 
 // After what it needs.
 #include <jpeglib.h>

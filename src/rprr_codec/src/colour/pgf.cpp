@@ -9,6 +9,7 @@
 
 #include "colour/checks.hpp"
 #include "colour/pgf_container.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

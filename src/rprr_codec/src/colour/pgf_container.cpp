@@ -7,6 +7,7 @@
 
 #include "colour/checks.hpp"
 #include "rprr_codec/colour_codec.hpp"
+#include "rprr_wire/bytes.hpp"
 #include "wire_numbers.hpp"
 
 namespace rprr {

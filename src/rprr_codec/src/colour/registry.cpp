@@ -6,6 +6,7 @@
 #include "colour/pgf.hpp"
 #include "colour/webp.hpp"
 #include "rprr_codec/colour_codec.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

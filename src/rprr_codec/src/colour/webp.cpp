@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "colour/checks.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "rprr_codec/colour_codec.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -17,6 +17,7 @@
 #include "colour/worker_protocol.hpp"
 #include "rprr_codec/colour_codec.hpp"
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace {
 

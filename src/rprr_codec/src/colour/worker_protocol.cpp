@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colour/worker_protocol.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 

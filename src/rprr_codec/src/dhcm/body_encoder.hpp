@@ -8,6 +8,8 @@
 #include "dhcm/events.hpp"
 #include "dhcm/strips.hpp"
 #include "dhcm/values.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 namespace {

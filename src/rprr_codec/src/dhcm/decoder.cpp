@@ -5,6 +5,8 @@
 #include "dhcm/container.hpp"
 #include "dhcm/float_image.hpp"
 #include "rprr_codec/dhcm.hpp"
+#include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -5,7 +5,9 @@
 #include "dhcm/container.hpp"
 #include "dhcm/float_image.hpp"
 #include "rprr_codec/dhcm.hpp"
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/camera.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

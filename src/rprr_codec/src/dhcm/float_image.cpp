@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dhcm/float_image.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #include <cmath>
 #include <cstring>

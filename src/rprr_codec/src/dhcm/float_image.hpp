@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "dhcm/container.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 

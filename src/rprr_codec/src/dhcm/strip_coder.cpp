@@ -4,6 +4,7 @@
 
 #include "dhcm/strips.hpp"
 #include "dhcm/tables.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr::dhcm {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dhcm/strip_reader.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 #include <algorithm>
 #include <cstring>

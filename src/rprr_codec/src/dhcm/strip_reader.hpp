@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dhcm/strips.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr::dhcm {
 

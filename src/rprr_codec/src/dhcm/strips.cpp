@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dhcm/tables.hpp"
+#include "rprr_geometry/block_mask.hpp"
 
 namespace rprr::dhcm {
 namespace {

@@ -9,6 +9,7 @@
 #include "dhcm/huffman.hpp"
 #include "dhcm/lanes.hpp"
 #include "rprr_geometry/block_mask.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr::dhcm {
 

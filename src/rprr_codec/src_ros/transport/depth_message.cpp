@@ -6,7 +6,8 @@
 
 #include <sstream>
 
-#include "rprr_geometry_ros/conversions.hpp"
+#include "rprr_ros/conversions.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

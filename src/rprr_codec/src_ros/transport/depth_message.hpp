@@ -6,6 +6,7 @@
 
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/result.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -8,6 +8,7 @@
 
 #include "dhcm/body_decoder.hpp"
 #include "dhcm/body_encoder.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

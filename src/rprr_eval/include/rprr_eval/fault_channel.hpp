@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "rprr_codec/frame_codec.hpp"
-#include "rprr_codec/send_queue.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
+#include "rprr_radio/send_queue.hpp"
 #include "rprr_redundancy/validation.hpp"
 #include "rprr_station/station.hpp"
 

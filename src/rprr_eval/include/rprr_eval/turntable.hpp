@@ -9,7 +9,7 @@
 #include "rprr_eval/metrics.hpp"
 #include "rprr_pose/pose_frame.hpp"
 #include "rprr_pose/registration.hpp"
-#include "rprr_sensor/synthetic_scene.hpp"
+#include "rprr_synthetic/synthetic_scene.hpp"
 
 namespace rprr {
 

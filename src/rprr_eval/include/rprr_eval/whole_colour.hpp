@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

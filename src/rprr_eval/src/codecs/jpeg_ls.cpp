@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "codecs/makers.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #ifdef RPRR_HAVE_CHARLS
 #include <charls/charls.h>

@@ -5,6 +5,7 @@
 #include <jxl/decode_cxx.h>
 
 #include "codecs/jpeg_xl_output.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "codecs/jpeg_xl_output.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

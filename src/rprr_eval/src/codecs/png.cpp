@@ -2,6 +2,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "codecs/makers.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

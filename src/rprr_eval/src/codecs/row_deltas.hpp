@@ -3,7 +3,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "rprr_geometry/wire.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

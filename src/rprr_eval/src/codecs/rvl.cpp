@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "codecs/makers.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "codecs/makers.hpp"
 #include "rprr_codec/colour_codec.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "codecs/makers.hpp"
 #include "codecs/row_deltas.hpp"
+#include "rprr_wire/bytes.hpp"
 
 #ifdef RPRR_HAVE_ZSTD
 #include <zstd.h>

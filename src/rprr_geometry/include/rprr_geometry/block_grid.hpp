@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <opencv2/core/types.hpp>
 
 namespace rprr {
@@ -27,7 +28,11 @@ struct BlockGrid {
   /// Block that holds pixel (u, v).
   int index_of_pixel(int u, int v) const { return index(u / kBlockSide, v / kBlockSide); }
   /// Pixels of a block, clipped to the image.
-  cv::Rect rect(int block) const;
+  cv::Rect rect(int block) const {
+    const int u = block % columns * kBlockSide;
+    const int v = block / columns * kBlockSide;
+    return {u, v, std::min(kBlockSide, width - u), std::min(kBlockSide, height - v)};
+  }
 };
 
 }  // namespace rprr

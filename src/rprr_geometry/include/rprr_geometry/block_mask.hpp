@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "rprr_geometry/block_grid.hpp"
-#include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
 
 namespace rprr {
 
@@ -36,13 +34,13 @@ class BlockMask {
   std::vector<std::uint8_t> bits_;
 };
 
-/// Wire form of a mask, sealed with a CRC-32. Version 1:
-///   u8 version, u16 image width, u16 image height, u8 mode (0 none, 1 all, 2 coded),
-///   coded: adaptive binary range code over blocks in row order, context W, NW, N, NE.
-/// A VGA mask takes about 60 to 200 bytes.
-Bytes encode_mask(const BlockMask& mask);
+/// Blocks whose colour counts, and of these the ones whose depth counts too.
+struct BlockMaskPair {
+  BlockMask colour;
+  BlockMask depth;  // subset of colour, same grid
+};
 
-/// The mask of an image of exactly the grid's size. Errors: anything malformed, another size.
-Result<BlockMask> decode_mask(ByteView bytes, const BlockGrid& expected);
+/// Whether both masks are of one grid and every block of inner is in outer.
+bool is_subset(const BlockMask& inner, const BlockMask& outer);
 
 }  // namespace rprr

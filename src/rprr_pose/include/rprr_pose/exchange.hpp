@@ -10,6 +10,7 @@
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_pose/messages.hpp"
 #include "rprr_pose/pose_frame.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

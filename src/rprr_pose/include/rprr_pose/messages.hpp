@@ -8,8 +8,8 @@
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_geometry/wire.hpp"
 #include "rprr_pose/pose_status.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

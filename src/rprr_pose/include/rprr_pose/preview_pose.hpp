@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "rprr_geometry/preview.hpp"
 #include "rprr_pose/pose_evidence.hpp"
 #include "rprr_pose/pose_frame.hpp"
 #include "rprr_pose/pose_status.hpp"
 #include "rprr_pose/preview_agreement.hpp"
 #include "rprr_pose/preview_alignment.hpp"
 #include "rprr_pose/preview_starts.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 

@@ -10,6 +10,8 @@
 #include "rprr_pose/exchange.hpp"
 #include "rprr_pose/motion_prior.hpp"
 #include "rprr_pose/preview_pose.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 
@@ -42,7 +44,7 @@ std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& optio
 
 /// Content of rprr_msgs/BlockPreview: u8 version 1, u8 flags (bit 0: camera present), u32 hash of
 /// the sender's camera, u32 hash of the receiver's camera that the sender knows (0: none), camera
-/// (20 bytes) if present, then the sealed preview of rprr_geometry/preview.hpp. The first part is
+/// (20 bytes) if present, then the sealed preview of rprr_wire/preview.hpp. The first part is
 /// not sealed by itself: a wrong hash costs the exchange, nothing else.
 struct PreviewContent {
   std::uint32_t camera_hash = 0;

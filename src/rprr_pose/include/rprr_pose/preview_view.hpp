@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rprr_geometry/camera.hpp"
-#include "rprr_geometry/preview.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 

@@ -6,8 +6,9 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/result.hpp"
-#include "rprr_geometry/wire.hpp"
 #include "rprr_pose/sampling.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 

@@ -5,8 +5,9 @@
 
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_geometry/wire.hpp"
 #include "rprr_pose/normal_equations.hpp"
+#include "rprr_wire/bytes.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 

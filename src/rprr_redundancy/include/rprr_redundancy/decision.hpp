@@ -5,11 +5,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "rprr_geometry/block_mask_pair.hpp"
 #include "rprr_geometry/camera.hpp"
-#include "rprr_geometry/preview.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_redundancy/prediction.hpp"
+#include "rprr_wire/mask_wire.hpp"
+#include "rprr_wire/preview.hpp"
 
 namespace rprr {
 

@@ -9,8 +9,8 @@
 
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_geometry/wire.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 
@@ -47,7 +47,7 @@ struct PredictionMessage {
   std::string receiver;
   std::uint32_t exchange = 0;
   Stamp stamp = 0;  // of the frame of b that the blocks belong to
-  ByteView mask;    // rprr_geometry/block_mask_pair.hpp
+  ByteView mask;    // rprr_wire/mask_wire.hpp
   std::size_t frame_id_length = 0;
 };
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "rprr_geometry/result.hpp"
+#include "rprr_geometry/rgbd_image.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_sensor/depth_registration.hpp"
 #include "rprr_sensor/frame_pairing.hpp"
 #include "rprr_sensor/raw_disparity.hpp"
 #include "rprr_sensor/rectification.hpp"
-#include "rprr_sensor/rgbd_image.hpp"
 
 namespace rprr {
 

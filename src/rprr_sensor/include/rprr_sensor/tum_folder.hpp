@@ -8,9 +8,9 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/result.hpp"
+#include "rprr_geometry/rgbd_image.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_sensor/rgbd_image.hpp"
 
 namespace rprr {
 

@@ -11,17 +11,18 @@
 #include <vector>
 
 #include "rprr_codec/encoded_frame.hpp"
-#include "rprr_codec/frame_chunk.hpp"
 #include "rprr_codec/frame_codec.hpp"
+#include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_geometry/wire.hpp"
-#include "rprr_station/base_fusion.hpp"
+#include "rprr_radio/frame_chunk.hpp"
 #include "rprr_station/energy.hpp"
-#include "rprr_station/stitch.hpp"
-#include "rprr_station/view_synthesis.hpp"
+#include "rprr_view/base_fusion.hpp"
+#include "rprr_view/stitch.hpp"
+#include "rprr_view/view_synthesis.hpp"
+#include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 

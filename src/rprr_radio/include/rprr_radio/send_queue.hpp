@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rprr_geometry/stamp.hpp"
+#include "rprr_radio/rate_limit.hpp"
+#include "rprr_wire/bytes.hpp"
+
+namespace rprr {
+
+/// Below, a chunk would be longer than what may go at once.
+constexpr double kLeastBandwidth = 8000.0;
+
+struct SendQueueOptions {
+  std::string robot;          // this one
+  double bandwidth = 0.0;     // bytes a second on this robot's radio, all messages; 0: no limit;
+                              // else at least kLeastBandwidth
+  double frame_rate = 1.0;    // frames a second for which colours are coarsened, if need be
+  std::size_t waiting = 5;    // frames that wait to be encoded
+  std::size_t in_flight = 3;  // frames that the station has not acknowledged; 0: any number
+  /// A sparse frame waits so long for the receipt of its reference, or longer where receipts were
+  /// seen to take longer, then goes out whole. 0: the station's receipts are not waited for.
+  Duration receipt_timeout = from_seconds(2.0);
+  /// Without any receipt for so long, the station is taken to send none.
+  Duration receipts_silence = from_seconds(3.0);
+  /// A frame without receipt for so long, or longer likewise, is not on its way any more; two
+  /// seconds are enough where receipts come at once.
+  Duration lost_after = from_seconds(4.0);
+  Duration repeat_period = from_seconds(1.0);  // a frame is not repeated more often
+};
+
+/// A frame that waits to be encoded.
+struct QueuedFrame {
+  Stamp stamp = 0;
+  std::string frame_id;
+  std::uint32_t exchange = 0;
+  bool sparse = false;
+  std::string reference;  // sparse: robot and stamp of the frame that the station needs for it
+  Stamp reference_stamp = 0;
+  std::shared_ptr<const void> content;  // the caller's
+};
+
+/// What to encode next.
+struct EncodeOrder {
+  QueuedFrame frame;
+  bool as_whole = false;  // a sparse frame whose reference the station has not
+  std::size_t limit = 0;  // bytes of the encoded frame; 0: none
+};
+
+/// What to put on the radio now, as rprr_msgs/EncodedFrame.
+struct SendOrder {
+  Stamp stamp = 0;
+  std::string frame_id;  // empty in all chunks but the first
+  std::uint32_t exchange = 0;
+  Bytes data;  // a container, or a chunk of one
+};
+
+/// What the robot's exchanges need to know of its radio.
+struct RadioRoom {
+  bool ready = true;              // a frame more can be sent; if not, begin nothing
+  std::vector<Stamp> references;  // own whole frames that the station holds, oldest first; where
+                                  // it sends no receipts, those sent
+  double frame_seconds = 0.0;     // that a whole frame takes to the station; 0: not known yet
+};
+
+/// Orders what one robot sends of its frames: a byte budget, the newest frame first, pieces at an
+/// even pace, and nothing predicted from a reference that the station has not got. A state machine
+/// without a clock or threads of its own; `now` is any steady time in nanoseconds. Memory is
+/// bounded whatever receipts say: they come over the radio and are untrusted.
+///
+/// On a narrow radio (with a bandwidth, or where receipts take long) a frame waits until what was
+/// sent before it is through: of each kind (whole, sparse) only the newest waits, and it is encoded
+/// as late as possible. Without a bandwidth the receipts tell how fast the radio is. Messages of
+/// the exchange are never held back: they are counted (spent) and frames make room for them.
+class SendQueue {
+ public:
+  explicit SendQueue(SendQueueOptions options);
+
+  /// Other figures for the same options.
+  void set_rate(double bandwidth, double frame_rate);
+
+  /// Takes a frame up. Returns stamps of frames that gave way and will not be sent.
+  std::vector<Stamp> offer(QueuedFrame frame, Stamp now);
+  /// Bytes that this robot's other messages put on the radio.
+  void spent(std::size_t bytes, Stamp now);
+  /// The station's word on a robot's frames: whole ones held, ones to repeat, the last that came.
+  void receipt(const std::string& robot, const std::vector<Stamp>& held,
+               const std::vector<Stamp>& repeat, Stamp last, Stamp now);
+
+  /// Somebody new listens: what was on its way to others will not be acknowledged.
+  void listener_joined() { in_flight_.clear(); }
+
+  /// What to encode now, if anything: then encoded() or failed() must follow.
+  std::optional<EncodeOrder> next_to_encode(Stamp now);
+  void encoded(const EncodeOrder& order, Bytes data, Stamp now);
+  void failed() { encoding_ = false; }
+
+  /// What to send now, if anything; call until there is none.
+  std::optional<SendOrder> next_to_send(Stamp now);
+
+  RadioRoom room(Stamp now);
+  /// Seconds until everything that is encoded is sent.
+  double backlog(Stamp now);
+  std::size_t waiting() const { return queue_.size(); }
+  /// Whether there is a bandwidth, or receipts tell that a frame as it is usually takes long.
+  bool is_narrow() const {
+    return limited() || (delivery_rate_ > 0.0 && usual_bytes_ > kSlow * delivery_rate_);
+  }
+  std::size_t repeated() const { return repeated_; }  // frames, so far
+  /// The station did send receipts, and sends none any more.
+  bool receipts_ceased(Stamp now) const {
+    return options_.receipt_timeout > 0 && last_receipt_ && !hears_receipts(now);
+  }
+
+ private:
+  struct Entry {
+    QueuedFrame frame;
+    Stamp offered = 0;
+  };
+  struct Reference {  // that a sparse frame waits or waited for
+    Stamp stamp = 0;
+    Stamp since = 0;
+  };
+  struct Message {
+    Stamp stamp = 0;
+    std::string frame_id;
+    std::uint32_t exchange = 0;
+    Bytes data;
+    std::uint16_t number = 0;
+    bool whole = false;
+    bool repeated = false;
+    Stamp begun = 0;
+    std::size_t next = 0;  // chunk
+  };
+  struct Sent {
+    Stamp stamp = 0;
+    Stamp begun = 0;
+    Stamp at = 0;  // when its last byte was handed over
+    std::size_t bytes = 0;
+    bool whole = false;
+  };
+  struct Kept {
+    Message message;
+    std::optional<Stamp> repeated;
+  };
+
+  bool limited() const { return options_.bandwidth > 0.0; }
+  bool hears_receipts(Stamp now) const;
+  bool is_held(const std::string& robot, Stamp stamp) const;
+  bool may_go(const Entry& entry, Stamp now) const;
+  bool window_is_full(Stamp now) const;
+  Duration lost_after() const;
+  Duration reference_patience() const;
+  std::size_t frame_limit();
+  std::size_t chunk_size() const;
+  std::size_t bytes_left() const;
+  void sent_all(std::size_t bytes, Stamp now);
+  void acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp now);
+  void learn(const Sent& sent, Stamp now);
+  void learn_wait(const std::vector<Stamp>& held, Stamp now);
+  void repeat(Stamp stamp, Stamp now);
+
+  static constexpr double kSlow = 0.5;  // seconds for a frame
+
+  SendQueueOptions options_;
+  RateLimit rate_;
+  std::deque<Entry> queue_;  // oldest first
+  bool encoding_ = false;
+  bool last_was_sparse_ = false;
+  std::deque<Message> outgoing_;  // encoded, not all of it sent
+  std::uint16_t next_number_;
+  std::deque<Sent> in_flight_;
+  std::deque<Kept> kept_;                           // whole frames that may be asked for again
+  std::deque<Stamp> own_sent_;                      // whole frames
+  std::map<std::string, std::vector<Stamp>> held_;  // of this robot and its references
+  std::optional<Stamp> last_receipt_;
+  std::deque<Reference> awaited_;  // oldest first
+  double receipt_seconds_ = 0.0;   // from handing a frame over to its receipt, smoothed
+  double whole_seconds_ = 0.0;     // from encoding a whole frame on, likewise
+  double usual_bytes_ = 0.0;       // of a frame that is not coarsened, likewise
+  Stamp acknowledged_at_ = 0;
+  double delivery_rate_ = 0.0;      // bytes a second, likewise; 0: not known
+  double reference_seconds_ = 0.0;  // that receipts of references take, likewise
+  double control_per_frame_ = 0.0;  // bytes of other messages between frames, smoothed
+  std::size_t control_ = 0;         // since the last frame
+  std::size_t longest_control_ = 0;
+  std::size_t repeated_ = 0;
+};
+
+}  // namespace rprr
