@@ -5,7 +5,6 @@
 #include <rprr_msgs/BlockMask.h>
 #include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/EncodedFrame.h>
-#include <rprr_msgs/OutgoingFrame.h>
 #include <rprr_msgs/PoseUpdate.h>
 #include <rprr_msgs/RadioState.h>
 #include <rprr_msgs/Receipt.h>
@@ -14,6 +13,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <pluginlib/class_list_macros.hpp>
@@ -21,13 +21,14 @@
 #include <vector>
 
 #include "codec_options.hpp"
-#include "outgoing_conversion.hpp"
 #include "rprr_codec/frame_codec.hpp"
+#include "rprr_codec_ros/outgoing_message.hpp"
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_radio/send_queue.hpp"
 #include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/steady_now.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_wire/bytes.hpp"
 
@@ -38,10 +39,6 @@ using rprr_codec::EncoderConfig;
 
 constexpr std::size_t kLongestControl = 65536;  // bytes; no message of an exchange comes near it
 constexpr Duration kTellAgain = from_seconds(1.0);
-
-Stamp steady_now() {
-  return static_cast<Stamp>(ros::SteadyTime::now().toNSec());
-}
 
 std::vector<Stamp> to_stamps(const std::vector<ros::Time>& times) {
   std::vector<Stamp> stamps;
@@ -57,6 +54,7 @@ class EncoderNodelet : public nodelet::Nodelet {
  public:
   ~EncoderNodelet() override {
     timer_.stop();
+    receipts_.shutdown();
     for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
     worker_.reset();  // its jobs use the members below
   }
@@ -67,7 +65,6 @@ class EncoderNodelet : public nodelet::Nodelet {
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
     const Parameters parameters(private_nh);
     robot_ = parameters.param<std::string>("robot", "eyebug_a");
-    depth_unit_ = parameters.param("depth_unit", 0.0002);
     health_ = std::make_unique<Health>(nh, private_nh, "encoder", robot_);
     const std::string problem = make_encoder(parameters);
     if (!problem.empty()) {
@@ -82,17 +79,18 @@ class EncoderNodelet : public nodelet::Nodelet {
     };
     publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16, joined);
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
-    links_ = RadioLinks::of_this_process();
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
     timer_ = nh.createWallTimer(ros::WallDuration(0.01), &EncoderNodelet::on_timer, this);
     server_ = std::make_unique<dynamic_reconfigure::Server<EncoderConfig>>(private_nh);
     server_->setCallback([this](EncoderConfig& config, std::uint32_t) { on_config(config); });
     subscribe(nh, prefix);
+    if (parameters.param("link_recovery", true)) {
+      links_ = RadioLinks::look_after({receipts_.getTopic()});
+    }
   }
 
   // Empty, or what is wrong.
   std::string make_encoder(const Parameters& parameters) {
-    if (!(depth_unit_ > 0.0)) return "~depth_unit must be above 0 (metres per count)";
     const Result<FrameCodecOptions> options = read_codec_options(parameters);
     if (!options) return options.reason();
     const Result<SendQueueOptions> sending = read_send_options(parameters, robot_);
@@ -107,10 +105,9 @@ class EncoderNodelet : public nodelet::Nodelet {
 
   void subscribe(ros::NodeHandle& nh, const std::string& prefix) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    receipts_ = nh.subscribe("/station/receipts", 20, &EncoderNodelet::on_receipt, this, hints);
     subscribers_.push_back(
         nh.subscribe(prefix + "outgoing", 8, &EncoderNodelet::on_outgoing, this));
-    subscribers_.push_back(
-        nh.subscribe("/station/receipts", 20, &EncoderNodelet::on_receipt, this, hints));
     // What this robot's other nodelets put on the radio.
     count<rprr_msgs::BlockPreview>(nh, prefix + "preview");
     count<rprr_msgs::SamplePoints>(nh, prefix + "samples");
@@ -146,20 +143,27 @@ class EncoderNodelet : public nodelet::Nodelet {
     timer_.setPeriod(ros::WallDuration(tick));
   }
 
-  void on_outgoing(const rprr_msgs::OutgoingFrameConstPtr& message) {
+  void on_outgoing(const OutgoingFrameConstPtr& outgoing) {
+    if (!outgoing->frame) {
+      return health_->error(
+          "unusable", "a frame on /" + robot_ + "/rprr/outgoing was not sent: " + outgoing->reason);
+    }
     QueuedFrame frame;
-    frame.stamp = to_stamp(message->header.stamp);
-    frame.frame_id = clean_frame(message->header.frame_id);
-    frame.exchange = message->exchange;
-    frame.sparse = message->sparse != 0;
-    frame.reference = message->reference;
-    frame.reference_stamp = to_stamp(message->reference_stamp);
-    frame.content = std::shared_ptr<const void>(message.get(), [message](const void*) {});
+    frame.stamp = outgoing->frame->stamp;
+    frame.frame_id = outgoing->frame->frame_id;
+    frame.exchange = outgoing->exchange;
+    frame.sparse = outgoing->sparse;
+    frame.reference = outgoing->reference;
+    frame.reference_stamp = outgoing->reference_stamp;
     std::size_t dropped = 0;
     bool narrow = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      dropped = queue_->offer(std::move(frame), steady_now()).size();
+      frame.ticket = ++last_ticket_;
+      waiting_[frame.ticket] = outgoing;
+      const std::vector<QueuedFrame> gone = queue_->offer(std::move(frame), steady_now());
+      for (const QueuedFrame& other : gone) waiting_.erase(other.ticket);
+      dropped = gone.size();
       narrow = queue_->is_narrow();
     }
     if (dropped > 0) {
@@ -194,13 +198,15 @@ class EncoderNodelet : public nodelet::Nodelet {
     for (;;) {
       send_due();
       std::optional<EncodeOrder> order;
+      OutgoingFrameConstPtr outgoing;
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         order = queue_->next_to_encode(steady_now());
         if (next_encoder_) encoder_ = std::move(next_encoder_);
+        if (order) outgoing = take_waiting(order->frame.ticket);
       }
       if (!order) break;
-      encode(*order);
+      encode(*order, *outgoing);
     }
     tell_state();
   }
@@ -223,13 +229,20 @@ class EncoderNodelet : public nodelet::Nodelet {
     }
   }
 
-  void encode(const EncodeOrder& order) {
-    const auto& message = *static_cast<const rprr_msgs::OutgoingFrame*>(order.frame.content.get());
-    Result<OutgoingImages> images = images_of(message, depth_unit_);
-    if (images && order.as_whole) make_whole(order, images->frame);
+  // With the mutex held.
+  OutgoingFrameConstPtr take_waiting(std::uint64_t ticket) {
+    const auto found = waiting_.find(ticket);
+    const OutgoingFrameConstPtr outgoing = found->second;
+    waiting_.erase(found);
+    return outgoing;
+  }
+
+  void encode(const EncodeOrder& order, const OutgoingFrame& outgoing) {
+    EncodedFrame frame = frame_to_encode(outgoing, order.as_whole);
+    if (order.as_whole) warn_of_whole(outgoing);
+    const RgbdFrame& images = *outgoing.frame;
     const Result<bool> encoded =
-        images ? encoder_->encode_within(images->depth, images->bgr, images->frame, order.limit)
-               : Result<bool>(Error{images.reason()});
+        encoder_->encode_within(images.depth, images.bgr, frame, order.limit);
     if (!encoded) {
       const std::lock_guard<std::mutex> lock(mutex_);
       queue_->failed();
@@ -238,18 +251,15 @@ class EncoderNodelet : public nodelet::Nodelet {
       return;
     }
     EncodedSizes sizes;
-    Bytes data = serialise(images->frame, &sizes);
-    report(images->frame, sizes);
+    Bytes data = serialise(frame, &sizes);
+    report(frame, sizes);
     const std::lock_guard<std::mutex> lock(mutex_);
     queue_->encoded(order, std::move(data), steady_now());
   }
 
-  void make_whole(const EncodeOrder& order, EncodedFrame& frame) {
-    frame.sparse = false;
-    frame.mask = BlockMask();
-    frame.depth_mask = BlockMask();
+  void warn_of_whole(const OutgoingFrame& outgoing) {
     health_->warn("reference not acknowledged",
-                  "the station did not acknowledge the frame of '" + order.frame.reference +
+                  "the station did not acknowledge the frame of '" + outgoing.reference +
                       "' that a frame refers to, so that goes out whole; look at the link between "
                       "that robot and the station, or raise ~receipt_timeout");
   }
@@ -291,22 +301,24 @@ class EncoderNodelet : public nodelet::Nodelet {
     state.backlog = static_cast<float>(backlog);
     state_.publish(state);
     health_->show("seconds of backlog", std::to_string(backlog));
-    show(links_->state(), *health_);
+    if (links_) show(links_->state(), *health_);
   }
 
   std::string robot_;
-  double depth_unit_ = 0.0;
   FrameCodecOptions options_;
   std::unique_ptr<Health> health_;
   std::optional<EncoderConfig> config_;  // the callbacks'
-  std::mutex mutex_;                     // of the next two
+  std::mutex mutex_;                     // guards queue_, waiting_, last_ticket_ and next_encoder_
   std::unique_ptr<SendQueue> queue_;
+  std::map<std::uint64_t, OutgoingFrameConstPtr> waiting_;  // by ticket: what queue_ holds
+  std::uint64_t last_ticket_ = 0;
   std::unique_ptr<FrameEncoder> next_encoder_;  // after a reconfiguration
   std::unique_ptr<FrameEncoder> encoder_;       // the worker's, as the next two
   RadioRoom told_;
   Stamp told_at_ = 0;
   ros::Publisher publisher_;
   ros::Publisher state_;
+  ros::Subscriber receipts_;
   std::vector<ros::Subscriber> subscribers_;
   std::shared_ptr<RadioLinks> links_;
   std::unique_ptr<dynamic_reconfigure::Server<EncoderConfig>> server_;

@@ -12,6 +12,7 @@
 
 #include "rprr_codec/frame_codec.hpp"
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/frame_message.hpp"
 #include "rprr_synthetic/coded_images.hpp"
 #include "rprr_wire/mask_wire.hpp"
 
@@ -43,24 +44,26 @@ class Encoder : public ::testing::Test {
     }
   }
 
-  rprr_msgs::OutgoingFrame outgoing(bool sparse) const {
+  rprr_msgs::OutgoingFrame outgoing(bool sparse, double depth_unit = 0.001) const {
+    RgbdFrame frame;
+    frame.stamp = to_stamp(ros::Time(100, 5000));
+    frame.frame_id = "eyebug_b_rgb_optical_frame";
+    frame.camera = {kWidth, kHeight, 150.0, 150.0, 80.0, 60.0};
+    frame.depth = {depth_.counts, depth_unit};
+    frame.bgr = bgr_;
     rprr_msgs::OutgoingFrame message;
-    message.header.stamp = ros::Time(100, 5000);
-    message.header.frame_id = "/eyebug_b_rgb_optical_frame";
+    message.frame = to_message(frame);
     message.exchange = 7;
     message.sparse = sparse ? 1 : 0;
-    message.camera_info =
-        info_from_camera({kWidth, kHeight, 150.0, 150.0, 80.0, 60.0}, message.header);
-    message.rgb = to_image(message.header, encodings::BGR8, bgr_);
-    message.depth = to_image(message.header, encodings::TYPE_16UC1, depth_.counts);
-    message.exchange_bytes = 3000;
+    message.pose_bytes = 2700;
     message.mask_bytes = 300;
     message.ms_pose = 12.5f;
+    message.ms_predict = 3.5f;
     if (sparse) {
       message.reference = "eyebug_a";
       message.reference_stamp = ros::Time(99, 1);
       pose_to_fields(motion_, message.translation, message.rotation);
-      message.mask = encode_mask(mask_);
+      message.mask = message.depth_mask = encode_mask(mask_);
       message.blocks_predicted = 11;
     }
     return message;
@@ -101,6 +104,7 @@ TEST_F(Encoder, AWholeFrameComesOutBitByBit) {
   EXPECT_FALSE(frame->sparse);
   EXPECT_EQ(frame->report.bytes_pose, 2700u);
   EXPECT_EQ(frame->report.bytes_masks, 300u);
+  EXPECT_NEAR(frame->report.ms_predict, 3.5f, 0.1f);
   const Result<DecodedFrame> images = decoder_.decode(*frame);
   ASSERT_TRUE(images) << images.reason();
   EXPECT_TRUE(synthetic::same(images->depth.counts, depth_.counts));
@@ -139,12 +143,8 @@ TEST_F(Encoder, ASparseFrameHasTheBaseThatIsAskedFor) {
   EXPECT_EQ(images->base.size(), base_size(bgr_.size(), 4));
 }
 
-TEST_F(Encoder, FloatDepthIsCodedInCountsOfTheUnit) {
-  DepthFrame fine = depth_;
-  fine.unit = 0.0002;
-  rprr_msgs::OutgoingFrame message = outgoing(false);
-  message.depth = to_image(message.header, encodings::TYPE_32FC1, to_float_image(fine));
-  publisher_.publish(message);
+TEST_F(Encoder, CountsKeepTheirUnit) {
+  publisher_.publish(outgoing(false, 0.0002));
   const auto encoded = next();
   ASSERT_TRUE(encoded) << "nothing on /eyebug_b/rprr/encoded";
   const Result<EncodedFrame> frame = parse_encoded_frame(encoded->data);
@@ -156,15 +156,15 @@ TEST_F(Encoder, FloatDepthIsCodedInCountsOfTheUnit) {
 }
 
 TEST_F(Encoder, UnusableFramesAreLeftOutAndTheNextOneGoesOut) {
-  std::vector<rprr_msgs::OutgoingFrame> unusable(6, outgoing(true));
+  std::vector<rprr_msgs::OutgoingFrame> unusable(7, outgoing(true));
   unusable[0].mask.pop_back();
   unusable[1].rotation.fill(std::nan(""));
   unusable[1].translation.fill(std::nan(""));
-  unusable[2].depth.data.resize(10);
-  unusable[3].rgb.encoding = "16UC1";
-  unusable[4].camera_info.K.fill(0.0);
-  unusable[4].camera_info.P.fill(0.0);
+  unusable[2].frame.depth.resize(10);
+  unusable[3].frame.bgr.pop_back();
+  unusable[4].frame.camera.assign(20, 0);
   unusable[5].reference.clear();
+  unusable[6].frame.depth_unit = std::nan("");
   for (const auto& message : unusable) {
     publisher_.publish(message);
     EXPECT_FALSE(next(0.2)) << "an unusable frame was encoded";

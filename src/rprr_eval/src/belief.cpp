@@ -20,7 +20,7 @@ constexpr int kNewtonSteps = 60;
 constexpr TrueScene kScenes[] = {TrueScene::kRoom, TrueScene::kTurntable, TrueScene::kCorridor};
 
 // truth: nothing for frames of two places.
-void add_sample(const PoseFrame& a, const PoseFrame& b, const std::optional<Pose>& truth,
+void add_sample(const RgbdFrame& a, const RgbdFrame& b, const std::optional<Pose>& truth,
                 const Profile& profile, std::vector<BeliefSample>& samples) {
   const Result<BlockPreview> preview = decode_preview(encode_preview(
       make_preview(b.depth, b.bgr, profile.preview.step), profile.preview.colour_quality));

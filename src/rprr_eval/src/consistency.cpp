@@ -64,10 +64,10 @@ Pose random_motion(Random& random, const ConsistencyOptions& options) {
   return motion;
 }
 
-PoseFramePtr frame_of(const Scene& scene, const SensorModel& sensor, const Pose& world_from_camera,
+RgbdFramePtr frame_of(const Scene& scene, const SensorModel& sensor, const Pose& world_from_camera,
                       std::uint32_t noise) {
   RgbdImage image = sense(scene, sensor, world_from_camera, noise);
-  auto frame = std::make_shared<PoseFrame>();
+  auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = from_seconds(1.0);
   frame->camera = rounded_for_wire(sensor.camera);
   frame->depth = std::move(image.depth);

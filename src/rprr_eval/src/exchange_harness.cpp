@@ -13,8 +13,7 @@ constexpr Duration kPatience = from_seconds(60.0);
 
 }  // namespace
 
-ExchangeHarness::ExchangeHarness(std::unique_ptr<ExchangeRole> reference,
-                                 std::unique_ptr<ExchangeRole> dependent, Duration one_way_latency)
+ExchangeHarness::ExchangeHarness(Side reference, Side dependent, Duration one_way_latency)
     : reference_(std::move(reference)),
       dependent_(std::move(dependent)),
       latency_(one_way_latency) {
@@ -24,7 +23,7 @@ template <typename Action>
 void ExchangeHarness::act(bool at_reference, ExchangeOutcome& outcome, const Action& action) {
   RoleOutput output;
   const auto start = std::chrono::steady_clock::now();
-  action(at_reference ? *reference_ : *dependent_, output);
+  action(at_reference ? *reference_.role : *dependent_.role, output);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   outcome.seconds_compute += spent.count();
   take(std::move(output), at_reference, outcome);
@@ -41,13 +40,13 @@ void ExchangeHarness::take(RoleOutput output, bool from_reference, ExchangeOutco
     if (!from_reference) {
       outcome.at_dependent = std::move(decision);
       decided_ = true;
-    } else if (decision.action == FrameDecision::Action::kSendSparse) {
-      outcome.at_reference = std::move(decision);
+    } else {
+      outcome.at_reference.push_back(std::move(decision));
     }
   }
 }
 
-ExchangeOutcome ExchangeHarness::run(const PoseFramePtr& a, const PoseFramePtr& b) {
+ExchangeOutcome ExchangeHarness::run(const RgbdFramePtr& a, const RgbdFramePtr& b) {
   ExchangeOutcome outcome;
   channel_.clear();
   decided_ = false;
@@ -59,8 +58,10 @@ ExchangeOutcome ExchangeHarness::run(const PoseFramePtr& a, const PoseFramePtr& 
     while (!channel_.empty() && channel_.front().arrival <= now_) {
       const InFlight flight = std::move(channel_.front());
       channel_.erase(channel_.begin());
-      act(!flight.to_dependent, outcome,
-          [&](ExchangeRole& role, RoleOutput& out) { role.receive(flight.message, now_, out); });
+      const std::string& sender = flight.to_dependent ? reference_.name : dependent_.name;
+      act(!flight.to_dependent, outcome, [&](ExchangeRole& role, RoleOutput& out) {
+        role.receive(sender, flight.message, now_, out);
+      });
     }
     for (const bool at_reference : {true, false}) {
       act(at_reference, outcome,

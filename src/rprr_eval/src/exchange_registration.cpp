@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_eval/exchange_registration.hpp"
-#include "rprr_wire/camera_wire.hpp"
 
 #include <utility>
+
+#include "rprr_pose/exchange_stage.hpp"
+#include "rprr_wire/camera_wire.hpp"
 
 namespace rprr {
 namespace {
 
 const std::string kA = "eyebug_a";
 const std::string kB = "eyebug_b";
-
-template <typename Options>
-Options between(Options options, const std::string& self, const std::string& peer) {
-  options.self = self;
-  options.peer = peer;
-  return options;
-}
 
 class ExchangeRegistration final : public Registration {
  public:
@@ -24,7 +19,7 @@ class ExchangeRegistration final : public Registration {
 
   std::string name() const override { return name_; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     if (profile_.use_previews && (a.bgr.empty() || b.bgr.empty())) {
       RegistrationResult without_colour;  // a preview cannot do without
       without_colour.motion = start;
@@ -56,12 +51,16 @@ class ExchangeRegistration final : public Registration {
 }  // namespace
 
 ExchangeHarness make_exchange(const Profile& profile, Duration one_way_latency) {
-  if (profile.use_previews) {
-    return {make_preview_reference(between(profile.preview, kA, kB)),
-            make_preview_dependent(between(profile.preview, kB, kA)), one_way_latency};
-  }
-  return {make_samples_reference(between(profile.samples, kA, kB)),
-          make_samples_dependent(between(profile.samples, kB, kA)), one_way_latency};
+  return make_exchange(profile, kA, kB, one_way_latency);
+}
+
+ExchangeHarness make_exchange(const Profile& profile, const std::string& a, const std::string& b,
+                              Duration one_way_latency) {
+  const ExchangeOptions options{profile.use_previews, profile.preview, profile.samples};
+  auto reference = std::make_unique<ExchangeStage>(a, options, std::vector<std::string>{b});
+  auto dependent = std::make_unique<ExchangeStage>(b, options, std::vector<std::string>{a});
+  dependent->set_reference(a, true);
+  return {{a, std::move(reference)}, {b, std::move(dependent)}, one_way_latency};
 }
 
 std::unique_ptr<Registration> make_exchange_registration(const std::string& name,
@@ -69,8 +68,8 @@ std::unique_ptr<Registration> make_exchange_registration(const std::string& name
   return std::make_unique<ExchangeRegistration>(name, profile);
 }
 
-PoseFramePtr as_frame_of(const PoseFrame& frame, const std::string& robot, Stamp stamp) {
-  auto copy = std::make_shared<PoseFrame>(frame);
+RgbdFramePtr as_frame_of(const RgbdFrame& frame, const std::string& robot, Stamp stamp) {
+  auto copy = std::make_shared<RgbdFrame>(frame);
   copy->stamp = stamp;
   copy->frame_id = robot + "_rgb_optical_frame";
   copy->camera = rounded_for_wire(frame.camera);

@@ -9,7 +9,7 @@
 
 namespace rprr {
 
-void ExchangeSurveyor::add(const PoseFrame& a, const PoseFrame& b) {
+void ExchangeSurveyor::add(const RgbdFrame& a, const RgbdFrame& b) {
   const Stamp stamp = from_seconds(1000.0 + ++number_);
   const ExchangeOutcome outcome =
       harness_.run(as_frame_of(a, "eyebug_a", stamp), as_frame_of(b, "eyebug_b", stamp));

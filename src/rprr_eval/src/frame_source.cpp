@@ -10,8 +10,8 @@
 namespace rprr {
 namespace {
 
-PoseFramePtr frame_of(const RgbdImage& image, const Camera& camera, Stamp stamp) {
-  auto frame = std::make_shared<PoseFrame>();
+RgbdFramePtr frame_of(const RgbdImage& image, const Camera& camera, Stamp stamp) {
+  auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = stamp;
   frame->camera = rounded_for_wire(camera);
   frame->depth = image.depth;
@@ -21,7 +21,7 @@ PoseFramePtr frame_of(const RgbdImage& image, const Camera& camera, Stamp stamp)
 
 }  // namespace
 
-Result<PoseFramePtr> FrameSource::frame(std::size_t entry) {
+Result<RgbdFramePtr> FrameSource::frame(std::size_t entry) {
   const auto found = frames_.find(entry);
   if (found != frames_.end()) return found->second;
   const Result<RgbdImage> image = folder_.load(entry);
@@ -30,7 +30,7 @@ Result<PoseFramePtr> FrameSource::frame(std::size_t entry) {
     frames_.erase(order_.front());
     order_.erase(order_.begin());
   }
-  PoseFramePtr made = frame_of(*image, folder_.camera, folder_.entries[entry].stamp);
+  RgbdFramePtr made = frame_of(*image, folder_.camera, folder_.entries[entry].stamp);
   frames_[entry] = made;
   order_.push_back(entry);
   return made;
@@ -45,9 +45,9 @@ Result<std::vector<FramePair>> folder_pairs(FrameSource& source, std::size_t ste
   const std::size_t count = std::min(all, most);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = i * all / count;
-    const Result<PoseFramePtr> a = source.frame(k);
+    const Result<RgbdFramePtr> a = source.frame(k);
     if (!a) return Error{a.reason()};
-    const Result<PoseFramePtr> b = source.frame(k + step);
+    const Result<RgbdFramePtr> b = source.frame(k + step);
     if (!b) return Error{b.reason()};
     pairs.emplace_back(*a, *b);
   }

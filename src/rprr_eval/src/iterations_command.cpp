@@ -65,9 +65,9 @@ Result<ExchangeSurvey> survey_distance(FrameSource& source, std::size_t step,
                                        const Profile& profile) {
   ExchangeSurveyor surveyor(make_exchange(profile, from_seconds(0.005)));
   for (std::size_t k = 0; k + step < source.folder().entries.size(); ++k) {
-    const Result<PoseFramePtr> a = source.frame(k);
+    const Result<RgbdFramePtr> a = source.frame(k);
     if (!a) return Error{a.reason()};
-    const Result<PoseFramePtr> b = source.frame(k + step);
+    const Result<RgbdFramePtr> b = source.frame(k + step);
     if (!b) return Error{b.reason()};
     surveyor.add(**a, **b);
   }

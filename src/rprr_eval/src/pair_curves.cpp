@@ -52,7 +52,7 @@ bool same_payloads(const EncodedFrame& one, const EncodedFrame& other) {
 
 // Of a pair, what our profile's decision asks b to send.
 cv::Mat new_content_of(const PreparedPair& pair) {
-  return pair.decision.sparse ? pair.decision.mask.to_image()
+  return pair.outgoing.sparse ? pair.outgoing.mask.to_image()
                               : cv::Mat(pair.b->bgr.size(), CV_8UC1, cv::Scalar(255));
 }
 
@@ -109,7 +109,7 @@ Result<PairCurves> CurveMeasurer::measure(const TumFolder& folder, const std::st
   curves.step = b - a;
   curves.a = a;
   curves.b = b;
-  curves.accepted = pair->decision.sparse;
+  curves.accepted = pair->outgoing.sparse;
   curves.overlap = pair->result.overlap;
   curves.image = pair->b->bgr.size();
   curves.new_content = new_content_of(*pair);

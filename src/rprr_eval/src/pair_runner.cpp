@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_eval/pair_runner.hpp"
 
-#include <chrono>
 #include <utility>
 
+#include "rprr_eval/exchange_registration.hpp"
 #include "rprr_geometry/motion.hpp"
 #include "rprr_radio/frame_chunk.hpp"
-#include "rprr_redundancy/decision.hpp"
 #include "rprr_view/provenance.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/camera_wire.hpp"
@@ -21,17 +20,9 @@ const std::string kFrameA = kA + "_rgb_optical_frame";
 const std::string kFrameB = kB + "_rgb_optical_frame";
 constexpr Duration kLatency = from_seconds(0.005);
 
-template <typename Action>
-double milliseconds(const Action& action) {
-  const auto start = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-PoseFramePtr pose_frame(const RgbdImage& image, const Camera& camera, Stamp stamp,
-                        const std::string& frame_id) {
-  auto frame = std::make_shared<PoseFrame>();
+RgbdFramePtr frame_of(const RgbdImage& image, const Camera& camera, Stamp stamp,
+                      const std::string& frame_id) {
+  auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = stamp;
   frame->frame_id = frame_id;
   frame->camera = camera;
@@ -55,39 +46,29 @@ bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& trut
 
 }  // namespace
 
+// Both robots and the station: of each the stages that its nodelets run.
 struct PairRunner::Robots {
   Robots(const Profile& profile, FrameEncoder frame_encoder)
-      : harness(reference_role(profile), dependent_role(profile), kLatency),
-        validator(profile.validation),
-        outgoing(kB),
+      : exchange(make_exchange(profile, kA, kB, kLatency)),
+        a(kA, redundancy_options(profile)),
+        b(kB, redundancy_options(profile)),
         encoder(std::move(frame_encoder)),
         independent_decoder(make_local_colour_decoder()),
         station(station_options(profile.station), make_isolated_colour_decoder()) {}
 
-  template <typename Options>
-  static Options between(Options options, const std::string& self, const std::string& peer) {
-    options.self = self;
-    options.peer = peer;
+  static RedundancyOptions redundancy_options(const Profile& profile) {
+    RedundancyOptions options;
+    options.validation = profile.validation;
     return options;
-  }
-  static std::unique_ptr<ExchangeRole> reference_role(const Profile& profile) {
-    return profile.use_previews ? make_preview_reference(between(profile.preview, kA, kB))
-                                : make_samples_reference(between(profile.samples, kA, kB));
-  }
-  static std::unique_ptr<ExchangeRole> dependent_role(const Profile& profile) {
-    return profile.use_previews ? make_preview_dependent(between(profile.preview, kB, kA))
-                                : make_samples_dependent(between(profile.samples, kB, kA));
   }
   static StationOptions station_options(StationOptions options) {
     options.robots = {kA, kB};
     return options;
   }
 
-  ExchangeHarness harness;
-  Decider decider;
-  Validator validator;
-  Outgoing outgoing;
-  FrameEncoder encoder;
+  ExchangeHarness exchange;
+  Redundancy a, b;
+  FrameEncoder encoder;  // both robots code alike
   FrameDecoder independent_decoder;
   Station station;
   Stamp now = from_seconds(1000.0);
@@ -95,58 +76,24 @@ struct PairRunner::Robots {
 
 namespace {
 
-// What b sends, decided by b's own state machine from the exchange and a's prediction.
-OutgoingDecision decide(PairResult& result, const PoseFramePtr& a, const PoseFramePtr& b,
-                        Decider& decider, Validator& validator, Outgoing& outgoing, Stamp now) {
-  const FrameDecision& at_b = result.exchange.at_dependent;
-  if (at_b.action != FrameDecision::Action::kSendSparse || !result.exchange.at_reference) {
-    const auto decisions = outgoing.whole(b->stamp, at_b.exchange, at_b.reason);
-    return decisions.empty() ? OutgoingDecision{} : decisions.front();
+// What goes out of both robots' frames, from what the exchange decided: a's requests reach b.
+struct OutgoingFrames {
+  std::vector<OutgoingFrame> of_a, of_b;
+};
+
+OutgoingFrames decide(PairResult& result, Redundancy& a, Redundancy& b, Stamp now) {
+  RedundancyOutput at_a, at_b;
+  for (const FrameDecision& decision : result.exchange.at_reference) a.take(decision, now, at_a);
+  b.take(result.exchange.at_dependent, now, at_b);
+  for (const BlockRequest& request : at_a.requests) {
+    result.ms_predict = static_cast<double>(request.ms);
+    const Bytes mask = encode_mask_pair(request.decision.send);
+    b.receive({kA, request.receiver, request.exchange, request.stamp, mask, 0}, now, at_b);
   }
-  Bytes mask;
-  result.ms_predict = milliseconds([&] {
-    const FrameDecision& at_a = *result.exchange.at_reference;
-    const Result<BlockPreview> preview = decode_preview(at_a.peer_preview);
-    const BlockDecision decision = decider.decide(a->depth, a->bgr, a->camera, *at_a.peer_camera,
-                                                  at_a.pose.motion, preview ? &*preview : nullptr);
-    mask = encode_mask_pair(decision.send);
-  });
-  BlockMask validated;
-  result.ms_validate = milliseconds([&] {
-    validated = validator.validate(b->depth, b->camera, *at_b.peer_camera, at_b.pose.motion);
-  });
-  auto decisions = outgoing.accepted(b->stamp, at_b.exchange, validated, now);
-  const auto more = outgoing.prediction({kB, at_b.exchange, b->stamp, mask, 0}, now);
-  decisions.insert(decisions.end(), more.begin(), more.end());
-  return decisions.empty() ? OutgoingDecision{} : decisions.front();
+  return {std::move(at_a.frames), std::move(at_b.frames)};
 }
 
-EncodedFrame frame_to_encode(const PreparedPair& pair) {
-  const OutgoingDecision& decision = pair.decision;
-  const PairResult& result = pair.result;
-  const FrameDecision& at_b = result.exchange.at_dependent;
-  EncodedFrame encoded;
-  encoded.camera = pair.b->camera;
-  encoded.sparse = decision.sparse;
-  if (decision.sparse) {
-    encoded.reference = kA;
-    encoded.reference_stamp = at_b.pose.stamp;
-    encoded.motion = at_b.pose.motion;
-    encoded.mask = decision.mask;
-    encoded.depth_mask = decision.depth_mask;
-  }
-  FrameReport& report = encoded.report;
-  report.blocks_predicted = static_cast<std::uint16_t>(decision.blocks_predicted);
-  report.blocks_validated = static_cast<std::uint16_t>(decision.blocks_validated);
-  report.bytes_pose = static_cast<std::uint32_t>(result.exchange.bytes);
-  report.bytes_masks = static_cast<std::uint32_t>(decision.message_bytes);
-  report.ms_pose = static_cast<float>(result.exchange.seconds_compute * 1e3);
-  report.ms_predict = static_cast<float>(result.ms_predict);
-  report.ms_validate = static_cast<float>(result.ms_validate);
-  return encoded;
-}
-
-Result<RebuiltFrame> send(const EncodedFrame& encoded, const PoseFrame& frame,
+Result<RebuiltFrame> send(const EncodedFrame& encoded, const RgbdFrame& frame,
                           const std::string& robot, std::uint32_t exchange, Station& station,
                           Stamp now) {
   const Bytes bytes = serialise(encoded);
@@ -172,7 +119,7 @@ void judge_pose(const TumFolder& folder, PreparedPair& pair) {
   }
 }
 
-void judge_view(const PoseFrame& b, PairResult& result) {
+void judge_view(const RgbdFrame& b, PairResult& result) {
   const RebuiltFrame& rebuilt = result.rebuilt;
   result.psnr = *psnr(rebuilt.bgr, b.bgr);
   result.ssim = ssim(rebuilt.bgr, b.bgr);
@@ -183,7 +130,7 @@ void judge_view(const PoseFrame& b, PairResult& result) {
 }
 
 // The rival: b's whole frame through the same codecs. Empty, or what went wrong.
-std::string judge_independent(const PoseFrame& b, FrameEncoder& encoder, FrameDecoder& decoder,
+std::string judge_independent(const RgbdFrame& b, FrameEncoder& encoder, FrameDecoder& decoder,
                               PairResult& result) {
   EncodedFrame independent;
   independent.camera = b.camera;
@@ -221,38 +168,44 @@ Result<PreparedPair> PairRunner::prepare(const TumFolder& folder, std::size_t a,
   if (!image_b) return Error{image_b.reason()};
   const Camera camera = rounded_for_wire(folder.camera);
   PreparedPair pair;
-  pair.a = pose_frame(*image_a, camera, robots.now, kFrameA);
-  pair.b = pose_frame(*image_b, camera, robots.now, kFrameB);
+  pair.a = frame_of(*image_a, camera, robots.now, kFrameA);
+  pair.b = frame_of(*image_b, camera, robots.now, kFrameB);
   pair.result.a = a;
   pair.result.b = b;
 
-  // a sends its frame whole, as the reference.
-  EncodedFrame whole_a;
-  whole_a.camera = camera;
-  const Result<bool> done = robots.encoder.encode(pair.a->depth, pair.a->bgr, whole_a);
-  if (!done) return Error{done.reason()};
-  const Result<RebuiltFrame> at_station = send(whole_a, *pair.a, kA, 0, robots.station, robots.now);
-  if (!at_station) return Error{at_station.reason()};
-
-  // a and b agree on their pose, a predicts, b validates.
-  pair.result.exchange = robots.harness.run(pair.a, pair.b);
-  pair.decision = decide(pair.result, pair.a, pair.b, robots.decider, robots.validator,
-                         robots.outgoing, robots.now);
-  pair.result.blocks_predicted = pair.decision.blocks_predicted;
-  pair.result.blocks_validated = pair.decision.blocks_validated;
+  PairResult& result = pair.result;
+  result.exchange = robots.exchange.run(pair.a, pair.b);
+  OutgoingFrames outgoing = decide(result, robots.a, robots.b, robots.now);
+  for (const OutgoingFrame& reference : outgoing.of_a) {
+    const Result<RebuiltFrame> held = send_reference(reference, robots);
+    if (!held) return Error{held.reason()};
+  }
+  if (outgoing.of_b.empty()) return Error{"b sends nothing"};
+  pair.outgoing = std::move(outgoing.of_b.front());
+  result.blocks_predicted = pair.outgoing.report.blocks_predicted;
+  result.blocks_validated = pair.outgoing.report.blocks_validated;
+  result.ms_validate = static_cast<double>(pair.outgoing.report.ms_validate);
   judge_pose(folder, pair);
   return pair;
 }
 
+Result<RebuiltFrame> PairRunner::send_reference(const OutgoingFrame& outgoing, Robots& robots) {
+  EncodedFrame encoded = frame_to_encode(outgoing);
+  const RgbdFrame& frame = *outgoing.frame;
+  const Result<bool> done = robots.encoder.encode(frame.depth, frame.bgr, encoded);
+  if (!done) return Error{done.reason()};
+  return send(encoded, frame, kA, outgoing.exchange, robots.station, robots.now);
+}
+
 Result<EncodedFrame> PairRunner::encode(const PreparedPair& pair, FrameEncoder& encoder) {
-  EncodedFrame encoded = frame_to_encode(pair);
+  EncodedFrame encoded = frame_to_encode(pair.outgoing);
   const Result<bool> done = encoder.encode(pair.b->depth, pair.b->bgr, encoded);
   if (!done) return Error{done.reason()};
   return encoded;
 }
 
 Result<RebuiltFrame> PairRunner::rebuild(const PreparedPair& pair, const EncodedFrame& encoded) {
-  return send(encoded, *pair.b, kB, pair.decision.exchange, robots_->station, robots_->now);
+  return send(encoded, *pair.b, kB, pair.outgoing.exchange, robots_->station, robots_->now);
 }
 
 Result<PairResult> PairRunner::run(const TumFolder& folder, std::size_t a, std::size_t b) {

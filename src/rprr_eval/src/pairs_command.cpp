@@ -75,7 +75,7 @@ int run_pairs(const PairsArguments& arguments) {
     results.back().rebuilt.depth.counts.release();
     results.back().rebuilt.provenance.release();
     results.back().exchange.at_dependent.frame.reset();
-    results.back().exchange.at_reference.reset();
+    results.back().exchange.at_reference.clear();
     std::cerr << "\rpair " << results.size() << " of " << pairs.size() << std::flush;
   }
   std::cerr << "\n" << summary_table(results, *profile);

@@ -36,9 +36,9 @@ Result<KnownPairs> known_pairs(FrameSource& source, std::size_t most_entries) {
   if (entries.size() < 2) {
     return Error{folder.path + ": no true poses (groundtruth.txt), which this needs"};
   }
-  std::vector<PoseFramePtr> frames;
+  std::vector<RgbdFramePtr> frames;
   for (const std::size_t entry : entries) {
-    const Result<PoseFramePtr> frame = source.frame(entry);
+    const Result<RgbdFramePtr> frame = source.frame(entry);
     if (!frame) return Error{frame.reason()};
     frames.push_back(*frame);
   }
@@ -84,9 +84,9 @@ PairRecord make_record(const KnownPair& pair, const RegistrationResult& result, 
 }
 
 Result<PairRecord> survey_pair(FrameSource& source, const KnownPair& pair, Registration& method) {
-  const Result<PoseFramePtr> a = source.frame(pair.a);
+  const Result<RgbdFramePtr> a = source.frame(pair.a);
   if (!a) return Error{a.reason()};
-  const Result<PoseFramePtr> b = source.frame(pair.b);
+  const Result<RgbdFramePtr> b = source.frame(pair.b);
   if (!b) return Error{b.reason()};
   const ProcessorTime clock;
   const RegistrationResult result = method.align(**a, **b, Pose::Identity());

@@ -39,7 +39,7 @@ double timed(const Action& action) {
 }
 
 // The start that was measured from, if there was one.
-std::optional<Pose> time_preview(PoseFrame a, const PoseFrame& b, const Profile& profile,
+std::optional<Pose> time_preview(RgbdFrame a, const RgbdFrame& b, const Profile& profile,
                                  const WarmStart& warm, std::uint32_t number, PreviewTimes& out) {
   std::optional<BlockPreview> preview;
   out.make = timed([&] { preview = make_preview(b.depth, b.bgr, profile.preview.step); });
@@ -80,7 +80,7 @@ TimingRow row(std::string name, const std::vector<PairTimes>& times, bool warm_o
 
 }  // namespace
 
-PairTimes time_pair(const PoseFrame& a, const PoseFrame& b, const Profile& profile,
+PairTimes time_pair(const RgbdFrame& a, const RgbdFrame& b, const Profile& profile,
                     const NamedRegistrations& peers, const WarmStart& warm, std::uint32_t number) {
   PairTimes out;
   const std::optional<Pose> start = time_preview(a, b, profile, warm, number, out.preview);

@@ -125,7 +125,7 @@ TurntableViews render_turntable(std::uint32_t seed, const TurntableOptions& opti
     const double degrees = k * options.step_degrees;
     const Pose pose = turntable_camera(degrees);
     const RgbdImage image = sense(scene, sensor, pose, seed * 1000 + static_cast<std::uint32_t>(k));
-    auto frame = std::make_shared<PoseFrame>();
+    auto frame = std::make_shared<RgbdFrame>();
     frame->stamp = from_seconds(1.0 + k);
     frame->frame_id = "turntable_rgb_optical_frame";
     frame->camera = rounded_for_wire(sensor.camera);

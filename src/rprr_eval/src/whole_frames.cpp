@@ -21,7 +21,7 @@ WholeFrames::WholeFrames(const std::map<std::string, double>& also, DhcmMode dep
 }
 
 Result<const std::vector<MethodCurve>*> WholeFrames::of(const std::string& key,
-                                                        const PoseFrame& b) {
+                                                        const RgbdFrame& b) {
   if (key == key_) return &curves_;
   key_.clear();
   curves_.clear();
@@ -34,7 +34,7 @@ Result<const std::vector<MethodCurve>*> WholeFrames::of(const std::string& key,
   return &curves_;
 }
 
-Result<MethodCurve> WholeFrames::measure(WholeColour& codec, const PoseFrame& b) {
+Result<MethodCurve> WholeFrames::measure(WholeColour& codec, const RgbdFrame& b) {
   MethodCurve curve{codec.name(), {}, {}};
   std::vector<double> settings = codec.settings();
   const auto also = also_.find(curve.method);

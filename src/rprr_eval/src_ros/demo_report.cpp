@@ -151,8 +151,8 @@ class DemoReport {
   void on_reference_event(const rprr_msgs::ExchangeEvent& event) {
     if (event.exchange == 0 || event.peer != b_) return;
     begin(event.exchange);
-    if (event.action == rprr_msgs::ExchangeEvent::SEND_WHOLE) {
-      stamp_a_[event.exchange] = event.header.stamp;
+    if (event.action == rprr_msgs::ExchangeEvent::SEND_REFERENCE) {
+      stamp_a_[event.exchange] = event.frame.header.stamp;
     }
     if (LoggedExchange* record = log_.find(event.exchange)) {
       record->ms_pose_reference = event.ms_pose;

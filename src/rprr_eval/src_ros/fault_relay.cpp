@@ -24,16 +24,13 @@
 #include <vector>
 
 #include "rprr_eval/fault_channel.hpp"
+#include "rprr_ros/steady_now.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {
 
 using rprr_eval::FaultRelayConfig;
-
-Stamp steady_now() {
-  return static_cast<Stamp>(ros::SteadyTime::now().toNSec());
-}
 
 // The bytes of data, which come last in these messages.
 template <typename Message>

@@ -34,6 +34,14 @@ inline bool wait_for(const std::function<bool()>& condition, double seconds) {
   return false;
 }
 
+template <typename T>
+ros::Time stamp_of(const T& message) {
+  return message.header.stamp;
+}
+inline ros::Time stamp_of(const rprr_msgs::ExchangeEvent& event) {
+  return event.frame.header.stamp;
+}
+
 /// What others publish on a topic; what this test publishes there itself is left out.
 template <typename T>
 class Inbox {
@@ -48,7 +56,7 @@ class Inbox {
   bool connected() const { return subscriber_.getNumPublishers() > 0; }
   typename T::ConstPtr at(const ros::Time& stamp) const {
     for (const auto& message : messages) {
-      if (message->header.stamp == stamp) return message;
+      if (stamp_of(*message) == stamp) return message;
     }
     return nullptr;
   }
@@ -157,8 +165,8 @@ struct PairTopics {
   using Nodelets = std::set<std::pair<std::string, std::string>>;  // robot, nodelet
   /// Whose diagnostics came among the messages from that one on.
   Nodelets alive(std::size_t first_message = 0) const {
-    const Nodelets all = {{a_, "reference exchange"}, {a_, "prediction"}, {a_, "encoder"},
-                          {b_, "dependent exchange"}, {b_, "validation"}, {b_, "encoder"},
+    const Nodelets all = {{a_, "exchange"},      {a_, "redundancy"}, {a_, "encoder"},
+                          {b_, "exchange"},      {b_, "redundancy"}, {b_, "encoder"},
                           {"station", "station"}};
     Nodelets heard;
     for (std::size_t i = first_message; i < diagnostics.messages.size(); ++i) {

@@ -13,7 +13,7 @@ namespace rprr {
 
 /// Two views of the synthetic room with noise and colour, and their M_ab.
 struct RoomViews {
-  PoseFrame a, b;
+  RgbdFrame a, b;
   Pose truth;
 };
 
@@ -24,7 +24,7 @@ inline RoomViews room_views(double metres, double degrees) {
   const Pose at_b = look_along({0.2, 0.1 + metres, 1.3}, 0.4 + degrees * M_PI / 180.0, -0.2, 0.0);
   RoomViews views;
   views.truth = relative_motion(at_a, at_b);
-  const auto fill = [&](PoseFrame& frame, const Pose& pose, std::uint32_t noise) {
+  const auto fill = [&](RgbdFrame& frame, const Pose& pose, std::uint32_t noise) {
     const RgbdImage image = sense(room, sensor, pose, noise);
     frame.stamp = from_seconds(1.0);
     frame.camera = rounded_for_wire(sensor.camera);

@@ -47,7 +47,7 @@ class Clocks(unittest.TestCase):
 
     def told(self, what, since):
         """The last number that b told by that name, or None."""
-        lines = self.bench.said(f"{B} dependent exchange: clock of eyebug_a is {what} = ", since)
+        lines = self.bench.said(f"{B} exchange: clock of eyebug_a is {what} = ", since)
         return int(re.search(r"= (-?\d+)$", lines[-1]).group(1)) if lines else None
 
     def expect_offset(self, ms, since):
@@ -70,7 +70,7 @@ class Clocks(unittest.TestCase):
 
     def expect_poses(self):
         """Exchanges go on to end with accepted poses."""
-        key = f"{B} dependent exchange: poses accepted"
+        key = f"{B} exchange: poses accepted"
         before = self.bench.counts().get(key, 0)
         self.assertTrue(wait_for(lambda: self.bench.counts().get(key, 0) > before, PATIENCE),
                         "no pose is accepted any more")

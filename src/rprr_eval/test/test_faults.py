@@ -159,7 +159,7 @@ class Faults(unittest.TestCase):
         time.sleep(BAD_RADIO)
         self.bench.radio()
         since = time.monotonic()
-        self.expect_counted("dependent exchange: frames sent whole", "no answer from eyebug_a")
+        self.expect_counted(f"{B} exchange: frames sent whole", "no answer from eyebug_a")
         self.expect_service(since, "messages were lost")
 
     def test_only_references_are_lost(self):
@@ -255,7 +255,7 @@ class Faults(unittest.TestCase):
         try:
             time.sleep(3.0)
             since = time.monotonic()
-            self.expect_counted("reference exchange: two senders",
+            self.expect_counted(f"{A} exchange: two senders",
                                 "more than one node (/fault_bench, /fault_relay)")
             self.expect_counted("station: two senders")
             self.expect_service(since, "another robot called b is there still")
@@ -310,7 +310,7 @@ class Faults(unittest.TestCase):
     def test_black_images(self):
         for robot in (A, B):
             since = self.show(robot, lambda bgr, depth: (numpy.zeros_like(bgr), depth))
-            self.expect_counted("dependent exchange: frames sent whole", "pose rejected")
+            self.expect_counted(f"{B} exchange: frames sent whole", "pose rejected")
             self.expect_service(since, f"{robot} saw nothing but black")
 
 

@@ -168,9 +168,9 @@ TEST(HostileRadio, ChunksTakeBoundedMemory) {
 
 // The robots' sides.
 
-PoseFramePtr frame_of(int number, Stamp stamp, const std::string& robot) {
+RgbdFramePtr frame_of(int number, Stamp stamp, const std::string& robot) {
   static const WalkFrame seen[] = {walk_frame(0, 160, 120), walk_frame(1, 160, 120)};
-  auto frame = std::make_shared<PoseFrame>();
+  auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = stamp;
   frame->frame_id = robot + "_rgb_optical_frame";
   frame->camera = rounded_for_wire(example_sensor_a(160, 120).camera);
@@ -184,20 +184,10 @@ struct Roles {
 };
 
 Roles preview_roles() {
-  PreviewOptions a;
-  a.self = "a";
-  a.peer = "b";
-  PreviewOptions b = a;
-  std::swap(b.self, b.peer);
-  return {make_preview_reference(a), make_preview_dependent(b)};
+  return {make_preview_reference("a", "b", {}), make_preview_dependent("b", "a", {})};
 }
 Roles samples_roles() {
-  SamplesOptions a;
-  a.self = "a";
-  a.peer = "b";
-  SamplesOptions b = a;
-  std::swap(b.self, b.peer);
-  return {make_samples_reference(a), make_samples_dependent(b)};
+  return {make_samples_reference("a", "b", {}), make_samples_dependent("b", "a", {})};
 }
 
 // Both roles; what they say may be changed on the way, and is kept.
@@ -221,8 +211,8 @@ class Exchange {
       messages_.pop_front();
       act(
           from_a ? *roles_.b : *roles_.a,
-          [&, said = &message](ExchangeRole& role, RoleOutput& out) {
-            role.receive(*said, now, out);
+          [&, said = &message, from_a = from_a](ExchangeRole& role, RoleOutput& out) {
+            role.receive(from_a ? "a" : "b", *said, now, out);
           },
           !from_a, mutator, now);
     }
@@ -246,8 +236,9 @@ class Exchange {
     action(role, out);
     problems += static_cast<int>(out.problems.size());
     for (const FrameDecision& decision : out.decisions) {
-      const bool sparse = decision.action == FrameDecision::Action::kSendSparse;
-      if (sparse) {
+      using Kind = FrameDecision::Action;
+      const bool sparse = decision.action == Kind::kSendSparse;
+      if (sparse || decision.action == Kind::kPredict) {
         EXPECT_TRUE(is_rigid(decision.pose.motion));
         EXPECT_TRUE(decision.pose.covariance.allFinite());
       }
@@ -335,9 +326,10 @@ TEST(HostileRadio, EveryFrameOfBIsDecidedOnce) {
   bombard(60000, [&](Stamp now) {
     if (mutator.once_in(4)) {
       ++frame;
-      take(outgoing.accepted(frame, static_cast<std::uint32_t>(frame), BlockMask(grid), now));
+      take(outgoing.accepted(frame, "a", static_cast<std::uint32_t>(frame), BlockMask(grid), now));
     }
     PredictionMessage message;
+    message.sender = "a";
     message.receiver = mutator.one_of(names);
     message.stamp =
         mutator.once_in(3) ? mutator.stamp() : frame + static_cast<Stamp>(mutator.below(2));

@@ -44,15 +44,15 @@ TEST(Methods, FindASmallMotionInTheRoom) {
 
 TEST(Methods, SurviveFramesWithoutDepthOrColour) {
   RoomViews views = room_views(0.05, 3.0);
-  PoseFrame no_depth = views.b;
+  RgbdFrame no_depth = views.b;
   no_depth.depth.counts = cv::Mat::zeros(views.b.depth.counts.size(), CV_16UC1);
-  PoseFrame nothing = no_depth;
+  RgbdFrame nothing = no_depth;
   nothing.bgr = cv::Mat();
   std::vector<std::string> notes;
   const auto made = make_methods({}, notes);
   ASSERT_TRUE(made) << made.reason();
   for (const auto& method : *made) {
-    for (const PoseFrame& empty : {no_depth, nothing}) {
+    for (const RgbdFrame& empty : {no_depth, nothing}) {
       EXPECT_FALSE(method->align(empty, views.b, Pose::Identity()).accepted) << method->name();
       // Colour alone is enough for features, as long as a has depth.
       if (method->name() == "orb_pnp" && !empty.bgr.empty()) continue;

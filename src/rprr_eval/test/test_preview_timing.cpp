@@ -20,7 +20,7 @@ class Recorder final : public Registration {
  public:
   explicit Recorder(std::vector<Pose>& starts) : starts_(starts) {}
   std::string name() const override { return "recorder"; }
-  RegistrationResult align(const PoseFrame&, const PoseFrame&, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame&, const RgbdFrame&, const Pose& start) override {
     starts_.push_back(start);
     return {};
   }

@@ -21,7 +21,7 @@ class Oracle final : public Registration {
  public:
   explicit Oracle(double limit) : limit_(limit) {}
   std::string name() const override { return "oracle"; }
-  RegistrationResult align(const PoseFrame& /*a*/, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& /*a*/, const RgbdFrame& b, const Pose& start) override {
     const double degrees = 5.0 * (to_seconds(b.stamp) - 1.0);
     RegistrationResult result;
     result.iterations = 3;

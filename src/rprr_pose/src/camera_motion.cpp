@@ -44,14 +44,14 @@ struct Found {
   Agreement forth, back;
 };
 
-bool usable(const PoseFrame& frame) {
+bool usable(const RgbdFrame& frame) {
   const cv::Mat& counts = frame.depth.counts;
   return counts.type() == CV_16UC1 && std::min(counts.cols, counts.rows) >= kLeastSide &&
          counts.cols == frame.camera.width && counts.rows == frame.camera.height &&
          frame.depth.unit > 0.0;
 }
 
-std::vector<PreviewView> views_of(const PoseFrame& frame) {
+std::vector<PreviewView> views_of(const RgbdFrame& frame) {
   return pyramid(make_view(make_preview(frame.depth, frame.bgr), frame.camera));
 }
 
@@ -144,7 +144,7 @@ CameraMotion told_by(const Found& found) {
 
 }  // namespace
 
-CameraMotion camera_motion(const PoseFrame& earlier, const PoseFrame& later) {
+CameraMotion camera_motion(const RgbdFrame& earlier, const RgbdFrame& later) {
   CameraMotion out;
   if (!usable(earlier) || !usable(later)) return out;
   const Views views{views_of(earlier), views_of(later), fine_view(earlier)};

@@ -60,7 +60,7 @@ std::vector<PreviewView> pyramid(PreviewView view) {
   return levels;
 }
 
-FixedView fine_view(const PoseFrame& frame) {
+FixedView fine_view(const RgbdFrame& frame) {
   FixedView view;
   view.metres = metres_of(frame.depth);
   view.metres_camera = frame.camera;

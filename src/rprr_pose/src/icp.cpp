@@ -30,7 +30,7 @@ struct Cloud {
 using Tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3>;
 
-Cloud cloud_of(const PoseFrame& frame) {
+Cloud cloud_of(const RgbdFrame& frame) {
   Cloud cloud;
   for (int v = 0; v < frame.depth.height(); v += kStride) {
     for (int u = 0; u < frame.depth.width(); u += kStride) {
@@ -41,7 +41,7 @@ Cloud cloud_of(const PoseFrame& frame) {
   return cloud;
 }
 
-Eigen::Matrix3Xd points_of(const PoseFrame& frame) {
+Eigen::Matrix3Xd points_of(const RgbdFrame& frame) {
   const auto samples = sample_points(frame.depth, frame.camera, kSampleCount, 1);
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(samples.size()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -74,7 +74,7 @@ class Icp final : public Registration {
 
   std::string name() const override { return "icp"; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
     result.motion = start;
     const Eigen::Matrix3Xd points = points_of(a);

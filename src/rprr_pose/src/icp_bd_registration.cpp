@@ -7,7 +7,7 @@
 namespace rprr {
 namespace {
 
-SampledSurface surface_of(const PoseFrame& frame, int iteration, std::uint32_t side) {
+SampledSurface surface_of(const RgbdFrame& frame, int iteration, std::uint32_t side) {
   const auto seed = 2 * static_cast<std::uint32_t>(iteration) + side;
   return {frame.camera, frame.depth.unit,
           sample_points(frame.depth, frame.camera, kSampleCount, seed)};
@@ -20,7 +20,7 @@ class IcpBd final : public Registration {
 
   std::string name() const override { return "icp_bd"; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
     result.motion = start;
     IcpWeights weights{0.0, false};

@@ -44,8 +44,8 @@ struct Row {
   double residual;
 };
 
-std::vector<Row> rows_at(const std::vector<SamplePoint>& samples, const PoseFrame& a,
-                         const PoseFrame& b, const Pose& m_ab) {
+std::vector<Row> rows_at(const std::vector<SamplePoint>& samples, const RgbdFrame& a,
+                         const RgbdFrame& b, const Pose& m_ab) {
   std::vector<Row> rows;
   rows.reserve(samples.size());
   for (const SamplePoint& sample : samples) {
@@ -86,7 +86,7 @@ class IcpIvd final : public Registration {
 
   std::string name() const override { return "icp_ivd"; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
     result.motion = start;
     const auto samples = sample_points(a.depth, a.camera, kSampleCount, 1);

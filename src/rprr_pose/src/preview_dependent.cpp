@@ -12,18 +12,21 @@ namespace {
 // The exchange under way.
 struct Exchange {
   std::uint32_t number = 0;
-  PoseFramePtr frame;
+  RgbdFramePtr frame;
   Stamp deadline = 0;
   std::uint32_t bytes = 0;
 };
 
 class PreviewDependent final : public ExchangeRole {
  public:
-  explicit PreviewDependent(PreviewOptions options)
-      : options_(std::move(options)), next_number_(options_.first_exchange) {}
+  PreviewDependent(std::string self, std::string peer, const PreviewOptions& options)
+      : self_(std::move(self)),
+        peer_(std::move(peer)),
+        options_(options),
+        next_number_(options_.first_exchange) {}
 
-  void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
-    if (exchange_ || (last_start_ && now - *last_start_ < options_.min_period)) return;
+  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
+    if (!active_ || exchange_ || (last_start_ && now - *last_start_ < options_.min_period)) return;
     if (!radio_ready_) {
       waiting_ = frame;
       return;
@@ -31,14 +34,20 @@ class PreviewDependent final : public ExchangeRole {
     begin(frame, now, out);
   }
 
+  void set_active(bool active) override {
+    active_ = active;
+    if (!active_) waiting_.reset();
+  }
+
   void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override {
     radio_ready_ = radio.ready;
     if (radio_ready_ && waiting_ && !exchange_) begin(waiting_, now, out);
   }
 
-  void receive(const PoseMessage& message, Stamp, RoleOutput& out) override {
+  void receive(const std::string& peer, const PoseMessage& message, Stamp,
+               RoleOutput& out) override {
     const auto* pose = std::get_if<RelativePoseMessage>(&message);
-    if (!pose || pose->dependent != options_.self || !exchange_ ||
+    if (peer != peer_ || !pose || pose->dependent != self_ || !exchange_ ||
         pose->exchange != exchange_->number) {
       return;
     }
@@ -47,10 +56,10 @@ class PreviewDependent final : public ExchangeRole {
     if (pose->status != PoseStatus::kAccepted) {
       // A reference that could not read the preview may have forgotten this camera.
       if (pose->status == PoseStatus::kMalformed) camera_sent_ = 0;
-      return send_whole("pose rejected by " + options_.peer + ": " + reason_of(pose->status), out);
+      return send_whole("pose rejected by " + peer_ + ": " + reason_of(pose->status), out);
     }
     if (!is_rigid(pose->motion) || !pose->covariance.allFinite() || !peer_camera_) {
-      out.problems.push_back(options_.peer + ": accepted pose that is not a pose, or no camera");
+      out.problems.push_back(peer_ + ": accepted pose that is not a pose, or no camera");
       return send_whole("pose could not be read", out);
     }
     camera_sent_ = camera_hash(exchange_->frame->camera);
@@ -58,7 +67,7 @@ class PreviewDependent final : public ExchangeRole {
     sparse.action = FrameDecision::Action::kSendSparse;
     sparse.frame = exchange_->frame;
     sparse.exchange = exchange_->number;
-    sparse.peer = options_.peer;
+    sparse.peer = peer_;
     sparse.pose = *pose;
     sparse.peer_camera = peer_camera_;
     sparse.exchange_bytes = exchange_->bytes;
@@ -69,12 +78,12 @@ class PreviewDependent final : public ExchangeRole {
   void tick(Stamp now, RoleOutput& out) override {
     if (exchange_ && now >= exchange_->deadline) {
       camera_sent_ = 0;  // who does not answer may not have heard it
-      send_whole("no answer from " + options_.peer, out);
+      send_whole("no answer from " + peer_, out);
     }
   }
 
  private:
-  void begin(PoseFramePtr frame, Stamp now, RoleOutput& out) {
+  void begin(RgbdFramePtr frame, Stamp now, RoleOutput& out) {
     waiting_.reset();
     last_start_ = now;
     exchange_.emplace();
@@ -82,13 +91,13 @@ class PreviewDependent final : public ExchangeRole {
     if (next_number_ == 0) next_number_ = 1;  // 0 stands for no exchange
     exchange_->frame = frame;
     exchange_->deadline = now + options_.step_timeout;
-    PreviewMessage message{frame->stamp, frame->frame_id, options_.peer, exchange_->number,
+    PreviewMessage message{frame->stamp, frame->frame_id, peer_, exchange_->number,
                            encode_preview_content(content_of(*frame))};
     exchange_->bytes = static_cast<std::uint32_t>(serialised_bytes(message));
     out.send.emplace_back(std::move(message));
   }
 
-  PreviewContent content_of(const PoseFrame& frame) const {
+  PreviewContent content_of(const RgbdFrame& frame) const {
     PreviewContent content;
     content.camera_hash = camera_hash(frame.camera);
     content.known_peer_hash = peer_camera_ ? camera_hash(*peer_camera_) : 0;
@@ -107,7 +116,7 @@ class PreviewDependent final : public ExchangeRole {
     if (camera) {
       peer_camera_ = *camera;
     } else {
-      out.problems.push_back(options_.peer + ": " + camera.reason());
+      out.problems.push_back(peer_ + ": " + camera.reason());
     }
   }
 
@@ -115,17 +124,20 @@ class PreviewDependent final : public ExchangeRole {
     FrameDecision whole;
     whole.frame = exchange_->frame;
     whole.exchange = exchange_->number;
-    whole.peer = options_.peer;
+    whole.peer = peer_;
     whole.reason = reason;
     whole.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(std::move(whole));
     exchange_.reset();
   }
 
+  const std::string self_;
+  const std::string peer_;
   const PreviewOptions options_;
   std::optional<Exchange> exchange_;
+  bool active_ = true;
   bool radio_ready_ = true;
-  PoseFramePtr waiting_;  // the newest frame, for when the radio is ready
+  RgbdFramePtr waiting_;  // the newest frame, for when the radio is ready
   std::optional<Camera> peer_camera_;
   std::uint32_t camera_sent_ = 0;  // hash of the own camera that the reference is known to know
   std::uint32_t next_number_;
@@ -134,8 +146,10 @@ class PreviewDependent final : public ExchangeRole {
 
 }  // namespace
 
-std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& options) {
-  return std::make_unique<PreviewDependent>(options);
+std::unique_ptr<ExchangeRole> make_preview_dependent(const std::string& self,
+                                                     const std::string& peer,
+                                                     const PreviewOptions& options) {
+  return std::make_unique<PreviewDependent>(self, peer, options);
 }
 
 }  // namespace rprr

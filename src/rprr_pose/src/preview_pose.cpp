@@ -27,7 +27,7 @@ bool differ(const Pose& left, const Pose& right, double metres, double degrees) 
 
 }  // namespace
 
-void PreviewPoseEstimator::prepare(const PoseFrame& a) {
+void PreviewPoseEstimator::prepare(const RgbdFrame& a) {
   if (prepared_ == a.stamp && !a_.empty()) return;
   prepared_ = a.stamp;
   a_ = pyramid(make_view(make_preview(a.depth, a.bgr), a.camera));
@@ -179,7 +179,7 @@ bool PreviewPoseEstimator::stands_alone(const Candidate& warm) const {
   return own > 0.0 && rival < kRival * own;
 }
 
-PreviewPose PreviewPoseEstimator::estimate(const PoseFrame& a, const BlockPreview& b,
+PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPreview& b,
                                            const Camera& b_camera, const std::vector<Pose>& warm) {
   prepare(a);
   b_ = pyramid(make_view(b, b_camera));

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "peer_cameras.hpp"
-#include "recent_frames.hpp"
 #include "rprr_pose/icp_bd.hpp"
+#include "rprr_pose/recent_frames.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_pose/samples_wire.hpp"
 #include "rprr_pose/update_wire.hpp"
@@ -16,7 +16,7 @@ namespace {
 // The exchange under way.
 struct Exchange {
   std::uint32_t number = 0;
-  PoseFramePtr frame;
+  RgbdFramePtr frame;
   Stamp deadline = 0;
   std::uint8_t iteration = 0;
   std::optional<SampledSurface> a_points;  // of this iteration (resample) or of the exchange
@@ -26,21 +26,24 @@ struct Exchange {
 
 class SamplesDependent final : public ExchangeRole {
  public:
-  explicit SamplesDependent(SamplesOptions options)
-      : options_(std::move(options)),
+  SamplesDependent(std::string self, std::string peer, const SamplesOptions& options)
+      : self_(std::move(self)),
+        peer_(std::move(peer)),
+        options_(options),
         frames_(options_.frames_kept, options_.max_stamp_difference) {}
 
-  void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
+  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
     frames_.add(frame);
-    if (!unclaimed_since_) unclaimed_since_ = now;
+    if (active_ && !unclaimed_since_) unclaimed_since_ = now;
     // Frames that do not fit do not make it wait longer.
     if (early_ && !exchange_) {
       begin(*std::exchange(early_, std::nullopt), early_deadline_, now, out);
     }
   }
 
-  void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
-    if (receiver_of(message) != options_.self) return;
+  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+               RoleOutput& out) override {
+    if (peer != peer_ || receiver_of(message) != self_) return;
     if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
       on_samples(*samples, now, out);
     } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
@@ -50,9 +53,14 @@ class SamplesDependent final : public ExchangeRole {
     }
   }
 
+  void set_active(bool active) override {
+    active_ = active;
+    if (!active_) unclaimed_since_.reset();
+  }
+
   void tick(Stamp now, RoleOutput& out) override {
     if (exchange_ && now >= exchange_->deadline) {
-      send_whole("exchange with " + options_.peer + " timed out", now, out);
+      send_whole("exchange with " + peer_ + " timed out", now, out);
     }
     if (early_ && now >= early_deadline_) {
       early_.reset();
@@ -61,9 +69,9 @@ class SamplesDependent final : public ExchangeRole {
     if (!exchange_ && unclaimed_since_ && now - *unclaimed_since_ >= options_.silence_timeout) {
       FrameDecision alone;
       alone.frame = frames_.newest();
-      alone.reason = unpaired_ ? "no frame near that of " + options_.peer +
+      alone.reason = unpaired_ ? "no frame near that of " + peer_ +
                                      " in time: clocks differ, or a camera is stuck"
-                               : options_.peer + " is silent";
+                               : peer_ + " is silent";
       unpaired_ = false;
       out.decisions.push_back(alone);
       unclaimed_since_.reset();
@@ -82,16 +90,16 @@ class SamplesDependent final : public ExchangeRole {
   void begin(const SamplesMessage& message, Stamp deadline, Stamp now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content || content->iteration != 0) {
-      if (!content) out.problems.push_back(options_.peer + ": " + content.reason());
+      if (!content) out.problems.push_back(peer_ + ": " + content.reason());
       return;
     }
-    const PoseFramePtr frame = frames_.nearest(message.stamp);
+    const RgbdFramePtr frame = frames_.nearest(message.stamp);
     if (!frame) {  // it may be about to arrive
       early_ = message;
       early_deadline_ = deadline;
       return;
     }
-    if (exchange_) send_whole("a newer exchange with " + options_.peer + " began", now, out);
+    if (exchange_) send_whole("a newer exchange with " + peer_ + " began", now, out);
     cameras_.learn(*content);
     exchange_.emplace();
     exchange_->number = message.exchange;
@@ -99,7 +107,7 @@ class SamplesDependent final : public ExchangeRole {
     exchange_->a_camera = cameras_.find(content->camera_hash);
     if (exchange_->a_camera) exchange_->a_points = surface_of(*content, *exchange_->a_camera);
     if (!exchange_->a_points) {
-      out.problems.push_back(options_.peer + ": camera not known, or samples outside of its image");
+      out.problems.push_back(peer_ + ": camera not known, or samples outside of its image");
     }
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
     exchange_->deadline = now + options_.step_timeout;
@@ -128,7 +136,7 @@ class SamplesDependent final : public ExchangeRole {
     }
     const Result<PoseRequest> request = decode_request(message.data);
     if (!request) {
-      out.problems.push_back(options_.peer + ": " + request.reason());
+      out.problems.push_back(peer_ + ": " + request.reason());
       return send_whole(request.reason(), now, out);
     }
     if (request->points_iteration > exchange_->iteration) {
@@ -138,12 +146,12 @@ class SamplesDependent final : public ExchangeRole {
     if (!exchange_->a_points) return;
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
     exchange_->deadline = now + options_.step_timeout;
-    const PoseFrame& frame = *exchange_->frame;
+    const RgbdFrame& frame = *exchange_->frame;
     PoseHalf half;
     half.iteration = request->iteration;
     half.equations = half_at_dependent(*exchange_->a_points, frame.depth, frame.camera,
                                        request->motion, {request->c, request->by_noise});
-    send(UpdateMessage{frame.stamp, options_.peer, exchange_->number, encode_half(half)}, out);
+    send(UpdateMessage{frame.stamp, peer_, exchange_->number, encode_half(half)}, out);
   }
 
   void on_pose(const RelativePoseMessage& pose, Stamp now, RoleOutput& out) {
@@ -153,14 +161,14 @@ class SamplesDependent final : public ExchangeRole {
       return send_whole("pose rejected: " + std::string(reason_of(pose.status)), now, out);
     }
     if (!is_rigid(pose.motion) || !pose.covariance.allFinite() || !exchange_->a_camera) {
-      out.problems.push_back(options_.peer + ": accepted pose that is not a pose");
+      out.problems.push_back(peer_ + ": accepted pose that is not a pose");
       return send_whole("pose could not be read", now, out);
     }
     FrameDecision sparse;
     sparse.action = FrameDecision::Action::kSendSparse;
     sparse.frame = exchange_->frame;
     sparse.exchange = exchange_->number;
-    sparse.peer = options_.peer;
+    sparse.peer = peer_;
     sparse.pose = pose;
     sparse.exchange_bytes = exchange_->bytes;
     sparse.peer_camera = exchange_->a_camera;
@@ -169,7 +177,7 @@ class SamplesDependent final : public ExchangeRole {
   }
 
   void send_samples(RoleOutput& out) {
-    const PoseFrame& frame = *exchange_->frame;
+    const RgbdFrame& frame = *exchange_->frame;
     SamplesContent content;
     content.iteration = exchange_->iteration;
     cameras_.describe(frame.camera, content);
@@ -177,7 +185,7 @@ class SamplesDependent final : public ExchangeRole {
     content.unit = frame.depth.unit;
     content.points = sample_points(frame.depth, frame.camera, options_.sample_count,
                                    exchange_->number * 64 + exchange_->iteration + 32);
-    send(SamplesMessage{frame.stamp, frame.frame_id, options_.peer, exchange_->number,
+    send(SamplesMessage{frame.stamp, frame.frame_id, peer_, exchange_->number,
                         encode_samples(content, frame.camera.width, frame.camera.height)},
          out);
   }
@@ -191,7 +199,7 @@ class SamplesDependent final : public ExchangeRole {
     FrameDecision whole;
     whole.frame = exchange_->frame;
     whole.exchange = exchange_->number;
-    whole.peer = options_.peer;
+    whole.peer = peer_;
     whole.reason = reason;
     whole.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(whole);
@@ -202,14 +210,17 @@ class SamplesDependent final : public ExchangeRole {
     last_finished_ = exchange_->number;
     // Frames that came after the claimed one are still unclaimed.
     unclaimed_since_.reset();
-    if (frames_.newest() && frames_.newest()->stamp > exchange_->frame->stamp)
-      unclaimed_since_ = now;
+    const bool more = frames_.newest() && frames_.newest()->stamp > exchange_->frame->stamp;
+    if (active_ && more) unclaimed_since_ = now;
     exchange_.reset();
   }
 
+  const std::string self_;
+  const std::string peer_;
   const SamplesOptions options_;
   PeerCameras cameras_;
   RecentFrames frames_;
+  bool active_ = true;
   std::optional<Exchange> exchange_;
   std::optional<SamplesMessage> early_;  // a new exchange whose frame is not here yet
   Stamp early_deadline_ = 0;
@@ -221,8 +232,10 @@ class SamplesDependent final : public ExchangeRole {
 
 }  // namespace
 
-std::unique_ptr<ExchangeRole> make_samples_dependent(const SamplesOptions& options) {
-  return std::make_unique<SamplesDependent>(options);
+std::unique_ptr<ExchangeRole> make_samples_dependent(const std::string& self,
+                                                     const std::string& peer,
+                                                     const SamplesOptions& options) {
+  return std::make_unique<SamplesDependent>(self, peer, options);
 }
 
 }  // namespace rprr

@@ -19,7 +19,7 @@ constexpr std::size_t kFewestPoints = 30;
 // The exchange under way.
 struct Exchange {
   std::uint32_t number = 0;
-  PoseFramePtr frame;
+  RgbdFramePtr frame;
   Stamp deadline = 0;
   std::uint8_t iteration = 0;
   Pose motion = Pose::Identity();  // M_ab, as it crossed the wire
@@ -34,16 +34,20 @@ struct Exchange {
 
 class SamplesReference final : public ExchangeRole {
  public:
-  explicit SamplesReference(SamplesOptions options)
-      : options_(std::move(options)), next_number_(options_.first_exchange) {}
+  SamplesReference(std::string self, std::string peer, const SamplesOptions& options)
+      : self_(std::move(self)),
+        peer_(std::move(peer)),
+        options_(options),
+        next_number_(options_.first_exchange) {}
 
-  void offer(const PoseFramePtr& frame, Stamp now, RoleOutput& out) override {
-    if (exchange_ || (started_once_ && now - last_start_ < options_.min_period)) return;
+  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
+    if (!active_ || exchange_ || (started_once_ && now - last_start_ < options_.min_period)) return;
     start(frame, now, out);
   }
 
-  void receive(const PoseMessage& message, Stamp now, RoleOutput& out) override {
-    if (!exchange_ || receiver_of(message) != options_.self) return;
+  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+               RoleOutput& out) override {
+    if (peer != peer_ || !exchange_ || receiver_of(message) != self_) return;
     if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
       if (samples->exchange == exchange_->number) on_samples(*samples, now, out);
     } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
@@ -51,12 +55,14 @@ class SamplesReference final : public ExchangeRole {
     }
   }
 
+  void set_active(bool active) override { active_ = active; }
+
   void tick(Stamp now, RoleOutput& out) override {
     if (exchange_ && now >= exchange_->deadline) finish(PoseStatus::kTimedOut, out);
   }
 
  private:
-  void start(const PoseFramePtr& frame, Stamp now, RoleOutput& out) {
+  void start(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) {
     started_once_ = true;
     last_start_ = now;
     exchange_.emplace();
@@ -67,7 +73,8 @@ class SamplesReference final : public ExchangeRole {
     FrameDecision whole;
     whole.frame = frame;
     whole.exchange = exchange_->number;
-    whole.peer = options_.peer;
+    whole.peer = peer_;
+    whole.action = FrameDecision::Action::kSendReference;
     whole.reason = "reference";
     out.decisions.push_back(whole);
     if (!send_samples(out)) return finish(PoseStatus::kTooFewPoints, out);
@@ -75,7 +82,7 @@ class SamplesReference final : public ExchangeRole {
   }
 
   bool send_samples(RoleOutput& out) {
-    const PoseFrame& frame = *exchange_->frame;
+    const RgbdFrame& frame = *exchange_->frame;
     SamplesContent content;
     content.iteration = exchange_->iteration;
     cameras_.describe(frame.camera, content);
@@ -83,7 +90,7 @@ class SamplesReference final : public ExchangeRole {
     content.points = sample_points(frame.depth, frame.camera, options_.sample_count,
                                    exchange_->number * 64 + exchange_->iteration);
     if (content.points.size() < kFewestPoints) return false;
-    send(SamplesMessage{frame.stamp, frame.frame_id, options_.peer, exchange_->number,
+    send(SamplesMessage{frame.stamp, frame.frame_id, peer_, exchange_->number,
                         encode_samples(content, frame.camera.width, frame.camera.height)},
          out);
     return true;
@@ -95,8 +102,7 @@ class SamplesReference final : public ExchangeRole {
         options_.resample ? exchange_->iteration : std::uint8_t{0};
     const PoseRequest request{exchange_->iteration, exchange_->motion, exchange_->c,
                               options_.by_noise, points_iteration};
-    send(UpdateMessage{exchange_->frame->stamp, options_.peer, exchange_->number,
-                       encode_request(request)},
+    send(UpdateMessage{exchange_->frame->stamp, peer_, exchange_->number, encode_request(request)},
          out);
   }
 
@@ -181,7 +187,7 @@ class SamplesReference final : public ExchangeRole {
   }
 
   void refuse(const std::string& why, RoleOutput& out) {
-    out.problems.push_back(options_.peer + ": " + why);
+    out.problems.push_back(peer_ + ": " + why);
     finish(PoseStatus::kMalformed, out);
   }
 
@@ -194,7 +200,7 @@ class SamplesReference final : public ExchangeRole {
     pose.stamp = exchange.frame->stamp;
     pose.frame_id = exchange.frame->frame_id;
     pose.dependent_stamp = exchange.b_stamp;
-    pose.dependent = options_.peer;
+    pose.dependent = peer_;
     pose.exchange = exchange.number;
     pose.status = status;
     pose.motion = exchange.motion;
@@ -207,19 +213,22 @@ class SamplesReference final : public ExchangeRole {
     pose.bytes_spent = static_cast<std::uint32_t>(exchange.bytes + serialised_bytes(pose));
     out.send.emplace_back(pose);
     if (status != PoseStatus::kAccepted) return;
-    FrameDecision sparse;
-    sparse.action = FrameDecision::Action::kSendSparse;
-    sparse.frame = exchange.frame;
-    sparse.exchange = exchange.number;
-    sparse.peer = options_.peer;
-    sparse.pose = pose;
-    sparse.peer_camera = exchange.b_camera;
-    sparse.exchange_bytes = pose.bytes_spent;
-    out.decisions.push_back(sparse);
+    FrameDecision predict;
+    predict.action = FrameDecision::Action::kPredict;
+    predict.frame = exchange.frame;
+    predict.exchange = exchange.number;
+    predict.peer = peer_;
+    predict.pose = pose;
+    predict.peer_camera = exchange.b_camera;
+    predict.exchange_bytes = pose.bytes_spent;
+    out.decisions.push_back(predict);
   }
 
+  const std::string self_;
+  const std::string peer_;
   const SamplesOptions options_;
   PeerCameras cameras_;
+  bool active_ = true;
   std::optional<Exchange> exchange_;
   std::uint32_t next_number_;
   Stamp last_start_ = 0;
@@ -228,8 +237,10 @@ class SamplesReference final : public ExchangeRole {
 
 }  // namespace
 
-std::unique_ptr<ExchangeRole> make_samples_reference(const SamplesOptions& options) {
-  return std::make_unique<SamplesReference>(options);
+std::unique_ptr<ExchangeRole> make_samples_reference(const std::string& self,
+                                                     const std::string& peer,
+                                                     const SamplesOptions& options) {
+  return std::make_unique<SamplesReference>(self, peer, options);
 }
 
 }  // namespace rprr

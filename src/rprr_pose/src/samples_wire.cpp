@@ -122,6 +122,10 @@ Bytes encode_samples(const SamplesContent& content, int image_width, int image_h
   return bytes;
 }
 
+bool are_of_dependent(ByteView bytes) {
+  return bytes.size > 1 && (bytes.data[1] & kHasNormals) != 0;
+}
+
 Result<SamplesContent> decode_samples(ByteView bytes) {
   ByteReader reader(unseal(bytes));
   const auto version = reader.get<std::uint8_t>();

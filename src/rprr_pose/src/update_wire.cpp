@@ -101,6 +101,10 @@ Pose rounded_for_wire(const Pose& pose) {
   return get_motion(reader, length);
 }
 
+bool is_of_dependent(ByteView bytes) {
+  return bytes.size > 1 && bytes.data[1] == kHalf;
+}
+
 Result<PoseRequest> decode_request(ByteView bytes) {
   ByteReader reader(unseal(bytes));
   PoseRequest request;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exchange_node.hpp"
 
-#include <chrono>
-#include <cmath>
+#include <algorithm>
+#include <boost/make_shared.hpp>
 #include <utility>
-#include <vector>
 
+#include "rprr_pose_ros/decision_message.hpp"
 #include "rprr_pose_ros/message_conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/steady_now.hpp"
 
 namespace rprr {
 namespace {
@@ -17,25 +18,6 @@ constexpr std::size_t kQueue = 200;          // jobs; an exchange is a few dozen
 constexpr std::size_t kLongestData = 65536;  // bytes; no message of an exchange comes near it
 const ros::WallDuration kTick(0.02);
 constexpr Duration kRadioSilence = from_seconds(5.0);  // its state comes every second
-constexpr double kClocksApart = 0.02;                  // seconds; the pairing of frames suffers
-
-// Timeouts must not follow a clock that is set or a bag that starts again.
-Stamp steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-PoseFramePtr to_pose_frame(const RgbdFramePtr& frame) {
-  auto out = std::make_shared<PoseFrame>();
-  out->stamp = frame->stamp;
-  out->frame_id = frame->header.frame_id;
-  out->camera = frame->camera;
-  out->depth = frame->depth;
-  out->bgr = frame->bgr;
-  out->owner = frame;
-  return out;
-}
 
 std::size_t data_size(const rprr_msgs::RelativePose&) {
   return 0;
@@ -45,7 +27,7 @@ std::size_t data_size(const Message& message) {
   return message.data.size();
 }
 
-// The others are sealed inside.
+// Other messages than poses are sealed inside.
 bool is_intact(const rprr_msgs::RelativePose& message) {
   return message.checksum == checksum_of(message);
 }
@@ -54,62 +36,84 @@ bool is_intact(const Message&) {
   return true;
 }
 
+Stamp stamp_of(const PoseMessage& message) {
+  return std::visit([](const auto& any) { return any.stamp; }, message);
+}
+
+std::vector<std::string> topics_of(const std::vector<ros::Subscriber>& subscribers) {
+  std::vector<std::string> topics;
+  for (const ros::Subscriber& subscriber : subscribers) topics.push_back(subscriber.getTopic());
+  return topics;
+}
+
+double age_of(Stamp stamp) {
+  return (ros::Time::now() - to_time(stamp)).toSec();
+}
+
 }  // namespace
 
-ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
-                           const std::string& robot,
-                           std::map<std::string, std::unique_ptr<ExchangeRole>> roles,
-                           bool listen_to_poses, double stale_overlap, Observer observer)
+ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
+                           const ExchangeNodeOptions& options, std::unique_ptr<ExchangeStage> stage,
+                           Observer observer)
     : nh_(nh),
-      robot_(robot),
-      health_(nh, private_nh, name, robot),
+      options_(options),
+      health_(nh, private_nh, "exchange", options.robot),
       observer_(std::move(observer)),
-      motion_(nh_, robot, stale_overlap, health_) {
-  const std::string prefix = "/" + robot + "/rprr/";
-  samples_ = nh_.advertise<rprr_msgs::SamplePoints>(prefix + "samples", 10);
-  update_ = nh_.advertise<rprr_msgs::PoseUpdate>(prefix + "update", 10);
-  if (!listen_to_poses)
-    pose_ = nh_.advertise<rprr_msgs::RelativePose>(prefix + "relative_pose", 10);
-  preview_ = nh_.advertise<rprr_msgs::BlockPreview>(prefix + "preview", 10);
-  event_ = nh_.advertise<rprr_msgs::ExchangeEvent>(prefix + "exchange", 10);
-  for (auto& [peer, role] : roles) sides_[peer].role = std::move(role);
+      stage_(std::move(stage)),
+      clocks_(options.robot, health_),
+      motion_(nh_, options.robot, options.stale_overlap, health_) {
+  advertise();
   worker_ = std::make_unique<Worker>(kQueue);
-  for (const auto& [peer, side] : sides_) subscribe(peer, listen_to_poses);
+  for (const std::string& peer : options_.references) set_reference(peer, true);
+  for (const std::string& peer : options_.peers) subscribe(peer);
+  if (options_.link_recovery) links_ = RadioLinks::look_after(topics_of(subscribers_));
   timer_ = nh_.createWallTimer(
       kTick, [this](const ros::WallTimerEvent&) { worker_->post([this] { on_tick(); }); });
-  subscribers_.push_back(nh_.subscribe(prefix + "radio", 4, &ExchangeNode::on_radio, this));
-  input_ = std::make_unique<RgbdSubscriber>(nh_, private_nh, robot, health_,
-                                            [this](const RgbdFramePtr& frame) { on_frame(frame); });
-}
-
-void ExchangeNode::subscribe(const std::string& peer, bool listen_to_poses) {
-  const std::string prefix = "/" + peer + "/rprr/";
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  const auto listen = [&](const std::string& topic, auto tag) {
-    using Message = decltype(tag);
-    const boost::function<void(const ros::MessageEvent<Message const>&)> callback =
-        [this, peer](const ros::MessageEvent<Message const>& event) { on_message(peer, event); };
-    ros::SubscribeOptions options;
-    options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(prefix + topic, 50,
-                                                                            callback);
-    options.transport_hints = hints;
-    subscribers_.push_back(nh_.subscribe(options));
-  };
-  listen("samples", rprr_msgs::SamplePoints());
-  listen("update", rprr_msgs::PoseUpdate());
-  listen("preview", rprr_msgs::BlockPreview());
-  if (listen_to_poses) listen("relative_pose", rprr_msgs::RelativePose());
-}
-
-void ExchangeNode::on_frame(const RgbdFramePtr& frame) {
-  worker_->post([this, frame = to_pose_frame(frame)] {
-    motion_.see(frame);
-    for (const auto& [peer, side] : sides_) {
-      drive(peer, [&frame](ExchangeRole& role, RoleOutput& out) {
-        role.offer(frame, steady_now(), out);
+  subscribers_.push_back(
+      nh_.subscribe("/" + options_.robot + "/rprr/radio", 4, &ExchangeNode::on_radio, this));
+  service_ = private_nh.advertiseService("set_reference", &ExchangeNode::on_set_reference, this);
+  input_ = std::make_unique<RgbdSubscriber>(
+      nh_, private_nh, options_.robot, health_, [this](const RgbdFramePtr& frame) {
+        worker_->post([this, frame] {
+          motion_.see(frame);
+          drive({}, [&](RoleOutput& out) { stage_->offer(frame, steady_now(), out); });
+        });
       });
-    }
-  });
+}
+
+void ExchangeNode::advertise() {
+  const std::string prefix = "/" + options_.robot + "/rprr/";
+  if (options_.use_previews) {
+    preview_ = nh_.advertise<rprr_msgs::BlockPreview>(prefix + "preview", 10);
+  } else {
+    samples_ = nh_.advertise<rprr_msgs::SamplePoints>(prefix + "samples", 10);
+    update_ = nh_.advertise<rprr_msgs::PoseUpdate>(prefix + "update", 10);
+  }
+  pose_ = nh_.advertise<rprr_msgs::RelativePose>(prefix + "relative_pose", 10);
+  decisions_ = nh_.advertise<FrameDecision>(prefix + "exchange", 10);
+}
+
+// Of every peer everything, whatever its role is now: a role that changes finds its topics
+// connected.
+void ExchangeNode::subscribe(const std::string& peer) {
+  if (options_.use_previews) {
+    listen<rprr_msgs::BlockPreview>(peer, "preview");
+  } else {
+    listen<rprr_msgs::SamplePoints>(peer, "samples");
+    listen<rprr_msgs::PoseUpdate>(peer, "update");
+  }
+  listen<rprr_msgs::RelativePose>(peer, "relative_pose");
+}
+
+template <typename Message>
+void ExchangeNode::listen(const std::string& peer, const std::string& topic) {
+  const boost::function<void(const ros::MessageEvent<Message const>&)> callback =
+      [this, peer](const ros::MessageEvent<Message const>& event) { on_message(peer, event); };
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<Message const>&>(
+      "/" + peer + "/rprr/" + topic, 50, callback);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(nh_.subscribe(options));
 }
 
 template <typename Message>
@@ -131,13 +135,7 @@ void ExchangeNode::on_message(const std::string& peer,
                             ": damaged pose; check the radio, that all robots run the same "
                             "version and that nobody else publishes as that robot");
   }
-  worker_->post([this, peer, message, age] {
-    const PoseMessage received = from_ros(*message);
-    time_message(peer, received, age);
-    drive(peer, [&received](ExchangeRole& role, RoleOutput& out) {
-      role.receive(received, steady_now(), out);
-    });
-  });
+  worker_->post([this, peer, message, age] { take(peer, from_ros(*message), age); });
 }
 
 void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
@@ -147,79 +145,50 @@ void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
   for (const ros::Time& stamp : message->references) radio.references.push_back(to_stamp(stamp));
   worker_->post([this, radio] {
     radio_told_ = steady_now();
-    set_radio(radio);
+    drive({}, [&](RoleOutput& out) { stage_->set_radio(radio, steady_now(), out); });
   });
 }
 
-// From here on: the worker's thread.
-void ExchangeNode::set_radio(const RadioState& radio) {
-  for (const auto& [peer, side] : sides_) {
-    drive(peer, [&radio](ExchangeRole& role, RoleOutput& out) {
-      role.set_radio(radio, steady_now(), out);
-    });
+bool ExchangeNode::on_set_reference(rprr_msgs::SetReference::Request& request,
+                                    rprr_msgs::SetReference::Response& response) {
+  const auto& peers = options_.peers;
+  response.success = std::find(peers.begin(), peers.end(), request.peer) != peers.end();
+  if (!response.success) {
+    response.message = "'" + request.peer + "' is none of this node's ~peers";
+    return true;
   }
+  const bool refer = request.refer != 0;
+  worker_->post([this, peer = request.peer, refer] { set_reference(peer, refer); });
+  return true;
+}
+
+// From here on: the worker's thread.
+void ExchangeNode::set_reference(const std::string& peer, bool refer) {
+  stage_->set_reference(peer, refer);
+  health_.show("refers to " + peer, refer ? "yes" : "no");
+}
+
+void ExchangeNode::take(const std::string& peer, const PoseMessage& message, double age) {
+  clocks_.received(peer, message, age);
+  drive(peer, [&](RoleOutput& out) { stage_->receive(peer, message, steady_now(), out); });
 }
 
 void ExchangeNode::on_tick() {
   // An encoder that is gone must not keep exchanges from beginning.
   if (radio_told_ != 0 && steady_now() - radio_told_ > kRadioSilence) {
     radio_told_ = 0;
-    set_radio({});
+    drive({}, [&](RoleOutput& out) { stage_->set_radio({}, steady_now(), out); });
   }
-  for (const auto& [peer, side] : sides_) {
-    drive(peer, [](ExchangeRole& role, RoleOutput& out) { role.tick(steady_now(), out); });
-  }
+  drive({}, [&](RoleOutput& out) { stage_->tick(steady_now(), out); });
 }
 
-// age: by this robot's clock, of the frame that the message belongs to.
-void ExchangeNode::time_message(const std::string& peer, const PoseMessage& message, double age) {
-  Side& side = sides_[peer];
-  const auto* pose = std::get_if<RelativePoseMessage>(&message);
-  if (pose == nullptr) {
-    side.question_age = age;
-  } else if (pose->dependent == robot_ && pose->dependent_age != 0.0) {
-    side.clock.add(pose->dependent_age - side.question_delay,
-                   age - static_cast<double>(pose->reply_delay), steady_now());
-    compare_clocks(peer, side);
-  }
-}
-
-void ExchangeNode::compare_clocks(const std::string& peer, Side& side) {
-  const auto clock = side.clock.estimate(steady_now());
-  if (!clock) return;
-  const auto ms = std::lround(clock->offset * 1e3);
-  health_.show("clock of " + peer + " is ahead, ms", std::to_string(ms));
-  health_.show("clock of " + peer + " is ahead, ms uncertain",
-               std::to_string(static_cast<int>(std::lround(clock->uncertainty * 1e3))));
-  if (std::abs(clock->offset) - clock->uncertainty < kClocksApart) return;
-  health_.warn("clocks differ", "the clock of '" + peer + "' is " + std::to_string(std::abs(ms)) +
-                                    (ms > 0 ? " ms ahead of" : " ms behind") +
-                                    " this robot's, so frames of different instants are paired, or "
-                                    "none: keep both together with chrony");
-}
-
-void ExchangeNode::drive(const std::string& peer,
-                         const std::function<void(ExchangeRole&, RoleOutput&)>& action) {
-  Side& side = sides_[peer];
-  RoleOutput output;
-  const Stamp start = steady_now();
-  action(*side.role, output);
-  side.ms += to_seconds(steady_now() - start) * 1e3;
-  publish(peer, output, side.ms);
-  if (!output.decisions.empty()) side.ms = 0.0;
-}
-
-void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, double ms) {
-  for (const PoseMessage& message : output.send) publish(sides_[peer], message);
-  for (const FrameDecision& decision : output.decisions) {
-    const bool sparse = decision.action == FrameDecision::Action::kSendSparse;
-    health_.count(sparse ? "poses accepted" : "frames sent whole");
-    if (!sparse) health_.show("last reason for a whole frame", decision.reason);
-    event_.publish(to_event(decision, ms));
-    observer_(decision, health_);
-    if (sparse) report_motion(decision);
-  }
-  for (const std::string& problem : output.problems) {
+// peer: who brought it about; empty: nobody, then there is no problem with a message either.
+void ExchangeNode::drive(const std::string& peer, const std::function<void(RoleOutput&)>& action) {
+  RoleOutput out;
+  action(out);
+  for (const PoseMessage& message : out.send) publish(message);
+  for (const FrameDecision& decision : out.decisions) publish(decision);
+  for (const std::string& problem : out.problems) {
     health_.warn("message of " + peer + " refused",
                  problem +
                      "; a message on a radio topic could not be used: check that all robots run "
@@ -227,29 +196,33 @@ void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, do
   }
 }
 
-// After all that came meanwhile, so that the newest frame is known. A camera that is slower than
-// the exchange has none.
-void ExchangeNode::report_motion(const FrameDecision& decision) {
+void ExchangeNode::publish(const FrameDecision& decision) {
+  using Action = FrameDecision::Action;
+  const bool accepted =
+      decision.action == Action::kSendSparse || decision.action == Action::kPredict;
+  health_.count(accepted ? "poses accepted" : "frames sent whole");
+  if (!accepted) health_.show("last reason for a whole frame", decision.reason);
+  decisions_.publish(boost::make_shared<const FrameDecision>(decision));
+  observer_(decision, health_);
+  if (!accepted) return;
+  // After all that came meanwhile, so that the newest frame is known. A camera that is slower than
+  // the exchange has none.
   worker_->post([this, frame = decision.frame, peer = decision.peer, exchange = decision.exchange] {
     motion_.report(frame, peer, exchange);
   });
 }
 
-void ExchangeNode::publish(Side& side, const PoseMessage& message) {
-  const auto age = [](Stamp stamp) { return (ros::Time::now() - to_time(stamp)).toSec(); };
-  if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
-    side.question_delay = age(samples->stamp);
+void ExchangeNode::publish(const PoseMessage& message) {
+  PoseMessage sent = message;
+  clocks_.sending(receiver_of(sent), sent, age_of(stamp_of(sent)));
+  if (const auto* samples = std::get_if<SamplesMessage>(&sent)) {
     samples_.publish(to_ros(*samples));
-  } else if (const auto* update = std::get_if<UpdateMessage>(&message)) {
+  } else if (const auto* update = std::get_if<UpdateMessage>(&sent)) {
     update_.publish(to_ros(*update));
-  } else if (const auto* preview = std::get_if<PreviewMessage>(&message)) {
-    side.question_delay = age(preview->stamp);
+  } else if (const auto* preview = std::get_if<PreviewMessage>(&sent)) {
     preview_.publish(to_ros(*preview));
   } else {
-    RelativePoseMessage pose = std::get<RelativePoseMessage>(message);
-    pose.dependent_age = side.question_age;
-    pose.reply_delay = static_cast<float>(age(pose.stamp));
-    pose_.publish(to_ros(pose));
+    pose_.publish(to_ros(std::get<RelativePoseMessage>(sent)));
   }
 }
 

@@ -101,24 +101,4 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   return out;
 }
 
-rprr_msgs::ExchangeEvent to_event(const FrameDecision& decision, double ms) {
-  rprr_msgs::ExchangeEvent event;
-  event.header.stamp = to_time(decision.frame->stamp);
-  event.header.frame_id = decision.frame->frame_id;
-  event.action = static_cast<std::uint8_t>(decision.action);
-  event.exchange = decision.exchange;
-  event.peer = decision.peer;
-  event.reason = decision.reason;
-  event.pose = to_ros(decision.pose);
-  if (decision.peer_camera) {
-    ByteWriter writer;
-    put_camera(writer, *decision.peer_camera);
-    event.peer_camera = writer.take();
-  }
-  event.peer_preview = decision.peer_preview;
-  event.ms_pose = static_cast<float>(ms);
-  event.exchange_bytes = decision.exchange_bytes;
-  return event;
-}
-
 }  // namespace rprr

@@ -51,7 +51,7 @@ MotionReport::MotionReport(ros::NodeHandle& nh, const std::string& robot, double
       publisher_(nh.advertise<rprr_msgs::CameraMotion>("/" + robot + "/rprr/motion", 10)) {
 }
 
-void MotionReport::report(const PoseFramePtr& frame, const std::string& peer,
+void MotionReport::report(const RgbdFramePtr& frame, const std::string& peer,
                           std::uint32_t exchange) {
   if (!newest_ || newest_->stamp <= frame->stamp) return;
   if (compared_ != frame || compared_to_ != newest_) {
@@ -66,7 +66,7 @@ void MotionReport::report(const PoseFramePtr& frame, const std::string& peer,
   judge(motion_, to_seconds(newest_->stamp - frame->stamp), peer);
 }
 
-void MotionReport::publish(const CameraMotion& motion, const PoseFrame& frame,
+void MotionReport::publish(const CameraMotion& motion, const RgbdFrame& frame,
                            const std::string& peer, std::uint32_t exchange) {
   rprr_msgs::CameraMotion message;
   message.header.stamp = to_time(newest_->stamp);

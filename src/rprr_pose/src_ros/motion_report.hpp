@@ -20,23 +20,23 @@ class MotionReport {
   MotionReport(ros::NodeHandle& nh, const std::string& robot, double stale_overlap, Health& health);
 
   /// The robot's newest frame.
-  void see(const PoseFramePtr& frame) { newest_ = frame; }
+  void see(const RgbdFramePtr& frame) { newest_ = frame; }
   /// Compares the newest frame with that of an exchange that has just ended with a pose. Nothing is
   /// said while there is no newer one, and twice a second is enough unless somebody listens.
-  void report(const PoseFramePtr& frame, const std::string& peer, std::uint32_t exchange);
+  void report(const RgbdFramePtr& frame, const std::string& peer, std::uint32_t exchange);
 
  private:
-  void publish(const CameraMotion& motion, const PoseFrame& frame, const std::string& peer,
+  void publish(const CameraMotion& motion, const RgbdFrame& frame, const std::string& peer,
                std::uint32_t exchange);
   void judge(const CameraMotion& motion, double seconds, const std::string& peer);
 
   const double stale_overlap_;
   Health& health_;
   ros::Publisher publisher_;
-  PoseFramePtr newest_;
+  RgbdFramePtr newest_;
   ros::SteadyTime next_;
   // Peers that share the frames share the answer.
-  PoseFramePtr compared_, compared_to_;
+  RgbdFramePtr compared_, compared_to_;
   CameraMotion motion_;
 };
 

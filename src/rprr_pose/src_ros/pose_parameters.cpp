@@ -2,16 +2,18 @@
 #include "pose_parameters.hpp"
 
 #include <ros/console.h>
+#include <ros/time.h>
+
+#include <algorithm>
 
 #include "pose_broadcaster.hpp"
 
 namespace rprr {
 
-SamplesOptions read_samples_options(const Parameters& parameters, const std::string& robot,
-                                    const std::string& peer) {
+namespace {
+
+SamplesOptions read_samples_options(const Parameters& parameters) {
   SamplesOptions options;
-  options.self = robot;
-  options.peer = peer;
   const auto seconds = [&](const char* name, Duration& value) {
     value = from_seconds(parameters.param(name, to_seconds(value)));
   };
@@ -39,11 +41,8 @@ SamplesOptions read_samples_options(const Parameters& parameters, const std::str
   return options;
 }
 
-PreviewOptions read_preview_options(const Parameters& parameters, const std::string& robot,
-                                    const std::string& peer) {
+PreviewOptions read_preview_options(const Parameters& parameters) {
   PreviewOptions options;
-  options.self = robot;
-  options.peer = peer;
   const auto seconds = [&](const char* name, Duration& value) {
     value = from_seconds(parameters.param(name, to_seconds(value)));
   };
@@ -67,6 +66,53 @@ PreviewOptions read_preview_options(const Parameters& parameters, const std::str
   return options;
 }
 
+bool uses_previews(const Parameters& parameters) {
+  const auto protocol = parameters.param<std::string>("protocol", "preview");
+  if (protocol != "preview" && protocol != "samples") {
+    ROS_ERROR_STREAM("~protocol is '" << protocol
+                                      << "'; it must be preview or samples: using preview");
+  }
+  return protocol != "samples";
+}
+
+}  // namespace
+
+ExchangeNodeOptions read_node_options(const Parameters& parameters) {
+  ExchangeNodeOptions options;
+  options.robot = parameters.param<std::string>("robot", "");
+  options.peers = parameters.param("peers", options.peers);
+  options.references = parameters.param("references", options.references);
+  options.use_previews = uses_previews(parameters);
+  options.stale_overlap = parameters.param("stale_overlap", options.stale_overlap);
+  options.link_recovery = parameters.param("link_recovery", options.link_recovery);
+  return options;
+}
+
+std::string problem_of(const ExchangeNodeOptions& options) {
+  const std::vector<std::string>& peers = options.peers;
+  const auto among = [&peers](const std::string& name) {
+    return std::find(peers.begin(), peers.end(), name) != peers.end();
+  };
+  if (options.robot.empty()) return "~robot is not set: give the name of the robot";
+  if (among(options.robot)) return "~peers names this robot, '" + options.robot + "', itself";
+  for (const std::string& name : options.references) {
+    if (!among(name)) return "~references names '" + name + "', which is none of ~peers";
+  }
+  return {};
+}
+
+ExchangeOptions read_exchange_options(const Parameters& parameters) {
+  ExchangeOptions options;
+  options.use_previews = uses_previews(parameters);
+  options.preview = read_preview_options(parameters);
+  options.samples = read_samples_options(parameters);
+  // A robot that restarts must not count through numbers that its peers still remember.
+  const std::uint32_t first = static_cast<std::uint32_t>(ros::WallTime::now().sec) << 8 | 1;
+  options.preview.first_exchange = first;
+  options.samples.first_exchange = first;
+  return options;
+}
+
 std::optional<TfPriorOptions> read_tf_prior_options(const Parameters& parameters,
                                                     const std::string& robot,
                                                     const std::string& peer) {
@@ -82,15 +128,6 @@ std::optional<TfPriorOptions> read_tf_prior_options(const Parameters& parameters
   options.odom_frame = frame("tf_prior_odom_frame");
   options.publishes_root = PoseBroadcaster::publishes_root(parameters);
   return options;
-}
-
-bool uses_previews(const Parameters& parameters) {
-  const auto protocol = parameters.param<std::string>("protocol", "preview");
-  if (protocol != "preview" && protocol != "samples") {
-    ROS_ERROR_STREAM("~protocol is '" << protocol
-                                      << "'; it must be preview or samples: using preview");
-  }
-  return protocol != "samples";
 }
 
 }  // namespace rprr

@@ -4,30 +4,25 @@
 #include <optional>
 #include <string>
 
-#include "rprr_pose/preview_protocol.hpp"
-#include "rprr_pose/samples_protocol.hpp"
+#include "exchange_node.hpp"
+#include "rprr_pose/exchange_stage.hpp"
 #include "rprr_ros/parameters.hpp"
 #include "tf_prior.hpp"
 
 namespace rprr {
 
-/// Default of ~stale_overlap.
-constexpr double kStaleOverlap = 0.7;
+/// Names, roles and protocol from the private parameters of config/pose.yaml.
+ExchangeNodeOptions read_node_options(const Parameters& parameters);
 
-/// The private parameters of config/pose.yaml.
-SamplesOptions read_samples_options(const Parameters& parameters, const std::string& robot,
-                                    const std::string& peer);
+/// Empty, or which names make no sense.
+std::string problem_of(const ExchangeNodeOptions& options);
 
-/// Likewise, for the preview protocol.
-PreviewOptions read_preview_options(const Parameters& parameters, const std::string& robot,
-                                    const std::string& peer);
+/// The settings of both protocols. Exchanges are numbered from the clock.
+ExchangeOptions read_exchange_options(const Parameters& parameters);
 
-/// What tf may propose to a as first poses towards peer; none if ~tf_prior is false.
+/// What tf may propose to `robot` as first poses towards `peer`; none if ~tf_prior is false.
 std::optional<TfPriorOptions> read_tf_prior_options(const Parameters& parameters,
                                                     const std::string& robot,
                                                     const std::string& peer);
-
-/// ~protocol: "preview" (default) or "samples". Another word is said and becomes the default.
-bool uses_previews(const Parameters& parameters);
 
 }  // namespace rprr

@@ -9,6 +9,7 @@
 #include <rprr_msgs/RelativePose.h>
 #include <rprr_msgs/SamplePoints.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <string>
@@ -92,15 +93,14 @@ class CameraOfRobot {
   ros::Publisher rgb_, info_, depth_;
 };
 
-/// ReferenceExchange of eyebug_a and DependentExchange of eyebug_b from outside: their cameras, all
+/// Exchange of eyebug_a and of eyebug_b, which refers to eyebug_a, from outside: their cameras, all
 /// their topics, and a publisher on each radio topic for what they would rather not hear.
 class ExchangeNodes : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(wait([this] {
       return a.connected() && b.connected() && poses.connected() && a_events.connected() &&
-             b_events.connected() && a_samples.connected() && b_samples.connected() &&
-             a_updates.connected() && b_updates.connected() && radio_connected();
+             b_events.connected() && protocol_connected();
     })) << "the nodes do not use the fixed topics";
     stamp = ros::Time(1000 + 100 * ++tests, 123456789);
   }
@@ -118,18 +118,23 @@ class ExchangeNodes : public testing::Test {
     }
     return false;
   }
-  bool radio_connected() const {
-    for (const ros::Publisher* radio :
-         {&radio_a_samples, &radio_a_update, &radio_b_samples, &radio_b_update, &radio_pose}) {
-      if (radio->getNumSubscribers() < 2) return false;  // one is this test's own inbox
-    }
-    return true;
+  /// Topics of the protocol that the nodes speak.
+  virtual bool protocol_connected() const {
+    return a_samples.connected() && b_samples.connected() && a_updates.connected() &&
+           b_updates.connected() &&
+           are_heard({&radio_a_samples, &radio_a_update, &radio_b_samples, &radio_b_update});
+  }
+  bool are_heard(const std::vector<const ros::Publisher*>& radios) const {
+    const auto heard = [](const ros::Publisher* radio) {
+      return radio->getNumSubscribers() >= 2;  // one is this test's own inbox
+    };
+    return heard(&radio_pose) && std::all_of(radios.begin(), radios.end(), heard);
   }
 
   ros::Time next_stamp() { return stamp += ros::Duration(1.0); }
   const ExchangeEvent* event_of(const Inbox<ExchangeEvent>& events, ros::Time at) const {
     for (const auto& event : events.messages) {
-      if (event->header.stamp == at) return event.get();
+      if (event->frame.header.stamp == at) return event.get();
     }
     return nullptr;
   }

@@ -8,8 +8,9 @@
 
 namespace rprr {
 
-using PreviewOfBlocks = rprr_msgs::BlockPreview;      // rprr::BlockPreview is what is inside
-using CameraMotionOfRobot = rprr_msgs::CameraMotion;  // likewise
+// rprr::BlockPreview and rprr::CameraMotion are what is inside of these messages.
+using PreviewOfBlocks = rprr_msgs::BlockPreview;
+using CameraMotionOfRobot = rprr_msgs::CameraMotion;
 
 /// The exchange nodes while they speak the protocol of previews.
 class PreviewNodes : public ExchangeNodes {
@@ -18,12 +19,9 @@ class PreviewNodes : public ExchangeNodes {
     metres_allowed = 0.03;
     degrees_allowed = 0.7;
   }
-  void SetUp() override {
-    ExchangeNodes::SetUp();
-    ASSERT_TRUE(wait([this] {
-      return previews.connected() && a_motions.connected() && b_motions.connected() &&
-             radio_preview.getNumSubscribers() >= 2;  // one is our inbox
-    })) << "the nodes do not use the topic of previews";
+  bool protocol_connected() const override {
+    return previews.connected() && a_motions.connected() && b_motions.connected() &&
+           are_heard({&radio_preview});
   }
   /// b looks elsewhere for one exchange: a has no fresh pose to begin with then.
   bool exchange_elsewhere() {

@@ -47,7 +47,7 @@ inline void expect_same_twice(Registration& method) {
 /// Frames without depth end without convergence, with the start as the motion.
 inline void expect_survives_empty_frames(Registration& method) {
   const auto a = corner_frame(Pose::Identity(), 1, "a");
-  PoseFrame empty = *a;
+  RgbdFrame empty = *a;
   empty.depth.counts = cv::Mat::zeros(a->depth.counts.size(), CV_16UC1);
   const Pose start = test_motion(0.1, 1.0);
   for (const auto& [left, right] : {std::pair(*a, empty), std::pair(empty, *a)}) {

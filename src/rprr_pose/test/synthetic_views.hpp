@@ -8,8 +8,8 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/pose_frame.hpp"
 
 namespace rprr {
 
@@ -58,9 +58,9 @@ inline DepthFrame corner_view(const Pose& m_ab, bool quantised = false,
   return frame;
 }
 
-inline PoseFramePtr corner_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
+inline RgbdFramePtr corner_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
                                  bool quantised = true) {
-  auto frame = std::make_shared<PoseFrame>();
+  auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = stamp;
   frame->frame_id = robot + "_rgb_optical_frame";
   frame->camera = kTestCamera;

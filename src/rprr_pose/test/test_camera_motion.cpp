@@ -14,8 +14,8 @@ namespace {
 using Outcome = CameraMotion::Outcome;
 
 // Noise of each reading of a Kinect: 1.4 mm at 1 m, growing with the square; a few grey levels.
-std::shared_ptr<PoseFrame> noisy_frame(const Pose& motion, unsigned seed, double exposure = 1.0) {
-  auto frame = std::make_shared<PoseFrame>(*textured_frame(motion, seed, "x", exposure));
+std::shared_ptr<RgbdFrame> noisy_frame(const Pose& motion, unsigned seed, double exposure = 1.0) {
+  auto frame = std::make_shared<RgbdFrame>(*textured_frame(motion, seed, "x", exposure));
   frame->depth = DepthFrame{frame->depth.counts.clone(), frame->depth.unit};
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -36,8 +36,8 @@ std::shared_ptr<PoseFrame> noisy_frame(const Pose& motion, unsigned seed, double
 }
 
 // A wall across the view, without texture.
-PoseFrame bare_wall(double metres, std::uint8_t grey) {
-  PoseFrame frame;
+RgbdFrame bare_wall(double metres, std::uint8_t grey) {
+  RgbdFrame frame;
   frame.camera = kTestCamera;
   frame.depth = DepthFrame{cv::Mat(kTestCamera.height, kTestCamera.width, CV_16UC1,
                                    cv::Scalar(std::lround(1000.0 * metres))),
@@ -54,8 +54,8 @@ class KnownMotions : public testing::TestWithParam<Motion> {};
 
 TEST_P(KnownMotions, AreRecovered) {
   const Pose truth = test_motion(GetParam().metres, GetParam().degrees);
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
-  const PoseFramePtr later = noisy_frame(truth, 2);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr later = noisy_frame(truth, 2);
   const CameraMotion found = camera_motion(*earlier, *later);
   ASSERT_EQ(found.outcome, Outcome::kMoved);
   EXPECT_LT(translation_error(found.motion, truth), 0.015);
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(CameraMotion, KnownMotions,
                                          Motion{0.0, -18.0}));
 
 TEST(CameraMotion, OfAStillCameraIsNotReportedForItsNoise) {
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
   for (unsigned seed = 2; seed < 12; ++seed) {
     const CameraMotion found = camera_motion(*earlier, *noisy_frame(Pose::Identity(), seed));
     EXPECT_EQ(found.outcome, Outcome::kStill) << found.metres << " m " << found.radians;
@@ -86,13 +86,13 @@ TEST(CameraMotion, OfAStillCameraIsNotReportedForItsNoise) {
 }
 
 TEST(CameraMotion, ExposureIsNoMotion) {
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
   EXPECT_EQ(camera_motion(*earlier, *noisy_frame(Pose::Identity(), 2, 0.7)).outcome,
             Outcome::kStill);
 }
 
 TEST(CameraMotion, SharesLessTheFurtherTheCameraTurned) {
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
   double before = 1.0;
   for (const double degrees : {1.0, 5.0, 10.0, 15.0}) {
     const CameraMotion found = camera_motion(*earlier, *noisy_frame(test_motion(0, degrees), 2));
@@ -103,7 +103,7 @@ TEST(CameraMotion, SharesLessTheFurtherTheCameraTurned) {
 }
 
 TEST(CameraMotion, AnotherSceneIsSaidToBeAnother) {
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
   EXPECT_EQ(camera_motion(*earlier, *noisy_frame(test_motion(0.3, 150.0), 2)).outcome,
             Outcome::kSceneChanged);
   // Something large came close.
@@ -123,7 +123,7 @@ TEST(CameraMotion, AnotherSceneIsSaidToBeAnother) {
 }
 
 TEST(CameraMotion, AHandInTheViewOfAStillCameraIsNoMotion) {
-  const PoseFramePtr earlier = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr earlier = noisy_frame(Pose::Identity(), 1);
   auto later = noisy_frame(Pose::Identity(), 2);
   later->depth.counts(cv::Rect(40, 100, 64, 48)) = 900;
   later->bgr(cv::Rect(40, 100, 64, 48)) = cv::Scalar(90, 130, 200);
@@ -131,7 +131,7 @@ TEST(CameraMotion, AHandInTheViewOfAStillCameraIsNoMotion) {
 }
 
 TEST(CameraMotion, WithoutDepthNothingIsSaid) {
-  const PoseFramePtr good = noisy_frame(Pose::Identity(), 1);
+  const RgbdFramePtr good = noisy_frame(Pose::Identity(), 1);
   auto blind = noisy_frame(Pose::Identity(), 2);
   blind->depth.counts = 0;
   EXPECT_EQ(camera_motion(*good, *blind).outcome, Outcome::kUnknown);
@@ -140,14 +140,14 @@ TEST(CameraMotion, WithoutDepthNothingIsSaid) {
 }
 
 TEST(CameraMotion, EmptyOrMisshapenFramesAreSurvived) {
-  const PoseFramePtr good = noisy_frame(Pose::Identity(), 1);
-  const PoseFrame empty;
+  const RgbdFramePtr good = noisy_frame(Pose::Identity(), 1);
+  const RgbdFrame empty;
   EXPECT_EQ(camera_motion(*good, empty).outcome, Outcome::kUnknown);
   EXPECT_EQ(camera_motion(empty, *good).outcome, Outcome::kUnknown);
-  PoseFrame other_size = *good;
+  RgbdFrame other_size = *good;
   other_size.depth.counts = other_size.depth.counts.rowRange(0, 100);
   EXPECT_EQ(camera_motion(*good, other_size).outcome, Outcome::kUnknown);
-  PoseFrame tiny = *good;
+  RgbdFrame tiny = *good;
   tiny.depth.counts = tiny.depth.counts(cv::Rect(0, 0, 3, 2));
   tiny.camera.width = 3;
   tiny.camera.height = 2;
@@ -159,8 +159,8 @@ TEST(CameraMotion, WhereAllPlacesLookAlikeNothingIsSaid) {
 }
 
 TEST(CameraMotion, DepthAloneServesWithoutColour) {
-  PoseFrame earlier = *noisy_frame(Pose::Identity(), 1);
-  PoseFrame later = *noisy_frame(test_motion(0.06, 3.0), 2);
+  RgbdFrame earlier = *noisy_frame(Pose::Identity(), 1);
+  RgbdFrame later = *noisy_frame(test_motion(0.06, 3.0), 2);
   earlier.bgr = later.bgr = cv::Mat();
   const CameraMotion found = camera_motion(earlier, later);
   ASSERT_EQ(found.outcome, Outcome::kMoved);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plays two robots' cameras, and an attacker on their radio; ReferenceExchange of eyebug_a and
-// DependentExchange of eyebug_b are started by the .test files, as nodelets and as nodes.
+// Plays two robots' cameras, and an attacker on their radio; Exchange of eyebug_a and of eyebug_b
+// are started by the .test files, as nodelets and as nodes.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <tf2_ros/buffer.h>
@@ -21,12 +21,12 @@ namespace {
 // The first of all, since nodes remember the camera_info that they once had.
 TEST_F(ExchangeNodes, MissingCameraInfoIsReported) {
   b.show(b.frame(stamp), false);
-  EXPECT_TRUE(complains("dependent exchange", "eyebug_b",
-                        {"/eyebug_b/camera/rgb/camera_info", "start", "remap"}))
+  EXPECT_TRUE(
+      complains("exchange", "eyebug_b", {"/eyebug_b/camera/rgb/camera_info", "start", "remap"}))
       << heard_;
   a.show(a.frame(stamp), false);
-  EXPECT_TRUE(complains("reference exchange", "eyebug_a",
-                        {"/eyebug_a/camera/rgb/camera_info", "start", "remap"}))
+  EXPECT_TRUE(
+      complains("exchange", "eyebug_a", {"/eyebug_a/camera/rgb/camera_info", "start", "remap"}))
       << heard_;
   EXPECT_TRUE(b_events.messages.empty()) << "nothing is made of images without camera_info";
   ASSERT_TRUE(exchange()) << last_outcome();
@@ -47,18 +47,18 @@ TEST_F(ExchangeNodes, AnExchangeEndsWithTheTruePoseOnAllTopics) {
   EXPECT_GT(pose.covariance[0], 0.0f);
 
   ASSERT_EQ(a_events.messages.size(), 2u) << "send whole as the reference, then predict";
-  EXPECT_EQ(a_events.messages[0]->action, ExchangeEvent::SEND_WHOLE);
-  EXPECT_EQ(a_events.messages[1]->action, ExchangeEvent::SEND_SPARSE);
+  EXPECT_EQ(a_events.messages[0]->action, ExchangeEvent::SEND_REFERENCE);
+  EXPECT_EQ(a_events.messages[1]->action, ExchangeEvent::PREDICT);
   for (const auto& event : a_events.messages) {
     EXPECT_EQ(event->peer, "eyebug_b");
     EXPECT_EQ(event->exchange, pose.exchange);
-    EXPECT_EQ(event->header.stamp, stamp);
+    EXPECT_EQ(event->frame.header.stamp, stamp);
   }
   ASSERT_EQ(b_events.messages.size(), 1u);
   const ExchangeEvent& event = *b_events.messages[0];
   EXPECT_EQ(event.peer, "eyebug_a");
   EXPECT_EQ(event.exchange, pose.exchange);
-  EXPECT_EQ(event.header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_EQ(event.frame.header.frame_id, "eyebug_b_rgb_optical_frame");
   EXPECT_TRUE(pose_from_fields(event.pose.translation, event.pose.rotation)
                   .isApprox(pose_from_fields(pose.translation, pose.rotation), 1e-9));
   for (const ExchangeEvent* told : {&event, a_events.messages[1].get()}) {
@@ -117,7 +117,7 @@ TEST_F(ExchangeNodes, ASilentDependentCostsOneExchange) {
   ASSERT_TRUE(wait([this] { return pose_of(stamp) != nullptr; }));
   EXPECT_EQ(pose_of(stamp)->status, RelativePose::TIMED_OUT);
   ASSERT_NE(event_of(a_events, stamp), nullptr) << "the reference frame goes out all the same";
-  EXPECT_EQ(event_of(a_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
+  EXPECT_EQ(event_of(a_events, stamp)->action, ExchangeEvent::SEND_REFERENCE);
   ASSERT_TRUE(exchange() && accepted()) << "service is back: " << last_outcome();
 }
 
@@ -175,7 +175,7 @@ TEST_F(ExchangeNodes, WrongInputIsReportedAndTheNextGoodFrameServed) {
     wrong.spoil(frame);
     b.show(frame);
     a.show(stamp);
-    EXPECT_TRUE(complains("dependent exchange", "eyebug_b", wrong.words))
+    EXPECT_TRUE(complains("exchange", "eyebug_b", wrong.words))
         << "the last complaint was: " << heard_;
     EXPECT_TRUE(wait([this] { return event_of(a_events, stamp) && pose_of(stamp); }))
         << "a's frame goes out all the same";
@@ -207,7 +207,7 @@ TEST_F(ExchangeNodes, GarbageWhileNothingGoesOnIsHarmless) {
   pose.status = 200;
   pose.checksum = checksum_of(pose);
   radio_pose.publish(pose);
-  EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"eyebug_a"})) << heard_;
+  EXPECT_TRUE(complains("exchange", "eyebug_b", {"eyebug_a"})) << heard_;
   EXPECT_TRUE(service_is_back()) << last_outcome();
 }
 

@@ -14,23 +14,17 @@ namespace {
 const Pose kTruth = test_motion(0.12, 6.0);
 const Pose kElsewhere = test_motion(1.5, 100.0);
 
-PreviewOptions options_for(const std::string& self, const std::string& peer) {
-  PreviewOptions options;
-  options.self = self;
-  options.peer = peer;
-  return options;
-}
-
 class MotionPriorTest : public ::testing::Test {
  protected:
-  MotionPriorTest() : dependent(make_preview_dependent(options_for("b", "a"))) {
-    reference = make_preview_reference(
-        options_for("a", "b"),
-        [this](const FrameNames& now, const std::optional<KnownMotion>& known) {
-          asked = now;
-          last = known;
-          return proposals;
-        });
+  MotionPriorTest() : dependent(make_preview_dependent("b", "a", {})) {
+    reference = make_preview_reference("a", "b", {},
+                                       [this](const std::string& peer, const FrameNames& now,
+                                              const std::optional<KnownMotion>& known) {
+                                         asked_peer = peer;
+                                         asked = now;
+                                         last = known;
+                                         return proposals;
+                                       });
   }
 
   // One exchange over a channel without faults.
@@ -38,8 +32,8 @@ class MotionPriorTest : public ::testing::Test {
     RoleOutput at_a, at_b;
     reference->offer(textured_frame(Pose::Identity(), stamp, "a"), 0, at_a);
     dependent->offer(textured_frame(m_ab, stamp + 5, "b"), 0, at_b);
-    for (const PoseMessage& message : at_b.send) reference->receive(message, 0, at_a);
-    for (const PoseMessage& message : at_a.send) dependent->receive(message, 0, at_b);
+    for (const PoseMessage& message : at_b.send) reference->receive("b", message, 0, at_a);
+    for (const PoseMessage& message : at_a.send) dependent->receive("a", message, 0, at_b);
     return std::get<RelativePoseMessage>(at_a.send.at(0));
   }
   static void expect_right(const RelativePoseMessage& pose, const Pose& truth = kTruth) {
@@ -49,6 +43,7 @@ class MotionPriorTest : public ::testing::Test {
   }
 
   std::vector<Pose> proposals;  // what the prior answers
+  std::string asked_peer;       // of whom it was asked
   FrameNames asked;             // what it was asked
   std::optional<KnownMotion> last;
   std::unique_ptr<ExchangeRole> reference, dependent;
@@ -82,10 +77,11 @@ TEST_F(MotionPriorTest, AWrongProposalDoesNoHarm) {
 }
 
 TEST_F(MotionPriorTest, WithoutEvidenceToSpareTheSearchDecides) {
-  PreviewOptions options = options_for("a", "b");
+  PreviewOptions options;
   options.search.limits.warm_evidence = 100.0;  // more than there can be
-  reference =
-      make_preview_reference(options, [](const FrameNames&, const std::optional<KnownMotion>&) {
+  reference = make_preview_reference(
+      "a", "b", options,
+      [](const std::string&, const FrameNames&, const std::optional<KnownMotion>&) {
         return std::vector<Pose>{kTruth};
       });
   const RelativePoseMessage pose = exchange(1000);

@@ -10,7 +10,7 @@ namespace rprr {
 namespace {
 
 PreviewView view_of(const Pose& m_ab, double exposure = 1.0) {
-  const PoseFramePtr frame = textured_frame(m_ab, 1, "x", exposure);
+  const RgbdFramePtr frame = textured_frame(m_ab, 1, "x", exposure);
   return make_view(make_preview(frame->depth, frame->bgr, 0.001), kTestCamera);
 }
 

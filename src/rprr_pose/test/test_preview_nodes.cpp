@@ -38,21 +38,21 @@ TEST_F(PreviewNodes, OneMessageEachWayGivesTheTruePoseOnAllTopics) {
   EXPECT_TRUE(a_updates.messages.empty() && b_updates.messages.empty());
 
   ASSERT_TRUE(wait([this] { return a_events.messages.size() >= 2; }));
-  ASSERT_EQ(a_events.messages.size(), 2u) << "send whole as the reference, then predict";
-  EXPECT_EQ(a_events.messages[0]->action, ExchangeEvent::SEND_WHOLE);
-  const ExchangeEvent& at_a = *a_events.messages[1];
-  EXPECT_EQ(at_a.action, ExchangeEvent::SEND_SPARSE);
+  ASSERT_EQ(a_events.messages.size(), 2u) << "predict, then send whole as the reference";
+  EXPECT_EQ(a_events.messages[1]->action, ExchangeEvent::SEND_REFERENCE);
+  const ExchangeEvent& at_a = *a_events.messages[0];
+  EXPECT_EQ(at_a.action, ExchangeEvent::PREDICT);
   EXPECT_EQ(at_a.peer, "eyebug_b");
   const auto seen = decode_preview(at_a.peer_preview);
   ASSERT_TRUE(seen) << seen.reason();
   EXPECT_EQ(seen->grid.width, kTestCamera.width);
   ASSERT_EQ(b_events.messages.size(), 1u);
   const ExchangeEvent& at_b = *b_events.messages[0];
-  EXPECT_EQ(at_b.header.frame_id, "eyebug_b_rgb_optical_frame");
+  EXPECT_EQ(at_b.frame.header.frame_id, "eyebug_b_rgb_optical_frame");
   EXPECT_TRUE(at_b.peer_preview.empty());
   for (const ExchangeEvent* told : {&at_a, &at_b}) {
     EXPECT_EQ(told->exchange, pose.exchange);
-    EXPECT_EQ(told->header.stamp, stamp);
+    EXPECT_EQ(told->frame.header.stamp, stamp);
     ByteReader reader{ByteView(told->peer_camera)};
     const auto camera = get_camera(reader);
     ASSERT_TRUE(camera) << camera.reason();
@@ -175,7 +175,7 @@ TEST_F(PreviewNodes, MotionDuringAnExchangeIsSaidByBoth) {
   const Pose motion = pose_from_fields(of_b.translation, of_b.rotation);
   EXPECT_LT(translation_error(motion, true_motion), 0.02);
   EXPECT_LT(rotation_error(motion, true_motion), 0.5);
-  EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"moved", "deg", "tf"})) << heard_;
+  EXPECT_TRUE(complains("exchange", "eyebug_b", {"moved", "deg", "tf"})) << heard_;
 
   next_stamp();
   a.show(stamp);
@@ -241,7 +241,7 @@ TEST_F(PreviewNodes, GarbageWhileNothingGoesOnIsRefusedAndReported) {
   message.header.stamp = stamp + ros::Duration(1000);  // a frame that never comes
   message.data = real;
   radio_preview.publish(message);
-  EXPECT_TRUE(complains("reference exchange", "eyebug_a", {"eyebug_b"})) << heard_;
+  EXPECT_TRUE(complains("exchange", "eyebug_a", {"eyebug_b"})) << heard_;
   EXPECT_TRUE(service_is_back()) << last_outcome();
 }
 
@@ -276,7 +276,7 @@ TEST_F(PreviewNodes, AForgedPoseThatIsNoPoseSendsBWhole) {
   previews.listener = nullptr;
   EXPECT_TRUE(forged);
   EXPECT_EQ(event_of(b_events, stamp)->action, ExchangeEvent::SEND_WHOLE);
-  EXPECT_TRUE(complains("dependent exchange", "eyebug_b", {"eyebug_a"})) << heard_;
+  EXPECT_TRUE(complains("exchange", "eyebug_b", {"eyebug_a"})) << heard_;
   EXPECT_TRUE(service_is_back()) << last_outcome();
 }
 

@@ -8,15 +8,15 @@
 namespace rprr {
 namespace {
 
-BlockPreview sent_preview(const PoseFrame& frame) {
+BlockPreview sent_preview(const RgbdFrame& frame) {
   const Result<BlockPreview> preview =
       decode_preview(encode_preview(make_preview(frame.depth, frame.bgr, 0.003), 40));
   return *preview;
 }
 
 PreviewPose estimate(const Pose& truth, double exposure = 1.0, const std::vector<Pose>& warm = {}) {
-  const PoseFramePtr a = textured_frame(Pose::Identity(), 1, "a");
-  const PoseFramePtr b = textured_frame(truth, 1, "b", exposure);
+  const RgbdFramePtr a = textured_frame(Pose::Identity(), 1, "a");
+  const RgbdFramePtr b = textured_frame(truth, 1, "b", exposure);
   PreviewPoseEstimator estimator({});
   return estimator.estimate(*a, sent_preview(*b), kTestCamera, warm);
 }
@@ -55,7 +55,7 @@ TEST(PreviewPose, NoOverlapIsAnAnswer) {
 }
 
 TEST(PreviewPose, ABareWallIsNotAccepted) {
-  auto wall = std::make_shared<PoseFrame>(*textured_frame(Pose::Identity(), 1, "a"));
+  auto wall = std::make_shared<RgbdFrame>(*textured_frame(Pose::Identity(), 1, "a"));
   wall->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000));
   wall->bgr = cv::Mat(240, 320, CV_8UC3, cv::Scalar(180, 190, 200));
   PreviewPoseEstimator estimator({});
@@ -64,9 +64,9 @@ TEST(PreviewPose, ABareWallIsNotAccepted) {
 }
 
 TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
-  auto blind = std::make_shared<PoseFrame>(*textured_frame(Pose::Identity(), 1, "a"));
+  auto blind = std::make_shared<RgbdFrame>(*textured_frame(Pose::Identity(), 1, "a"));
   blind->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(0));
-  const PoseFramePtr seeing = textured_frame(Pose::Identity(), 1, "b");
+  const RgbdFramePtr seeing = textured_frame(Pose::Identity(), 1, "b");
   PreviewPoseEstimator estimator({});
   EXPECT_NE(estimator.estimate(*blind, sent_preview(*seeing), kTestCamera, {}).status,
             PoseStatus::kAccepted);
@@ -76,7 +76,7 @@ TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
 }
 
 TEST(PreviewPose, NoCameraOfAPeerIsTooStrange) {
-  const PoseFramePtr a = textured_frame(Pose::Identity(), 1, "a");
+  const RgbdFramePtr a = textured_frame(Pose::Identity(), 1, "a");
   const BlockPreview preview = sent_preview(*a);
   for (const double focal : {0.0011, 0.01, 1.0, 1e4, 9.9e6}) {
     for (const double centre : {0.0, -9.9e5, 9.9e5}) {
@@ -101,7 +101,7 @@ TEST(PreviewPose, NoWarmStartIsTooFarOff) {
 }
 
 TEST(PreviewPose, AFrameWithoutColourIsSurvivedAndNotBelieved) {
-  auto colourless = std::make_shared<PoseFrame>(*textured_frame(Pose::Identity(), 1, "a"));
+  auto colourless = std::make_shared<RgbdFrame>(*textured_frame(Pose::Identity(), 1, "a"));
   colourless->bgr.release();
   PreviewPoseEstimator estimator({});
   EXPECT_NE(estimator.estimate(*colourless, sent_preview(*colourless), kTestCamera, {}).status,

@@ -13,34 +13,32 @@
 namespace rprr {
 namespace {
 
-PreviewOptions options_for(const std::string& self, const std::string& peer) {
-  PreviewOptions options;
-  options.self = self;
-  options.peer = peer;
-  return options;
+std::unique_ptr<ExchangeRole> reference_of(const PreviewOptions& options = {}) {
+  return make_preview_reference("a", "b", options);
+}
+std::unique_ptr<ExchangeRole> dependent_of(const PreviewOptions& options = {}) {
+  return make_preview_dependent("b", "a", options);
 }
 
 const Pose kTruth = test_motion(0.12, 6.0);
-PoseFramePtr frame_a(Stamp stamp = 1000) {
+RgbdFramePtr frame_a(Stamp stamp = 1000) {
   return textured_frame(Pose::Identity(), stamp, "a");
 }
-PoseFramePtr frame_b(Stamp stamp = 1000) {
+RgbdFramePtr frame_b(Stamp stamp = 1000) {
   return textured_frame(kTruth, stamp, "b");
 }
 
 class PreviewProtocol : public ::testing::Test {
  protected:
-  PreviewProtocol()
-      : reference(make_preview_reference(options_for("a", "b"))),
-        dependent(make_preview_dependent(options_for("b", "a"))) {}
+  PreviewProtocol() : reference(reference_of()), dependent(dependent_of()) {}
 
   // One exchange over a channel without faults; returns what a and b decided.
   void exchange(Stamp stamp) {
     at_a = at_b = {};
     reference->offer(frame_a(stamp), now, at_a);
     dependent->offer(frame_b(stamp), now, at_b);
-    for (const PoseMessage& message : at_b.send) reference->receive(message, now, at_a);
-    for (const PoseMessage& message : at_a.send) dependent->receive(message, now, at_b);
+    for (const PoseMessage& message : at_b.send) reference->receive("b", message, now, at_a);
+    for (const PoseMessage& message : at_a.send) dependent->receive("a", message, now, at_b);
   }
   const RelativePoseMessage& pose() const { return std::get<RelativePoseMessage>(at_a.send.at(0)); }
 
@@ -55,9 +53,11 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
   ASSERT_EQ(at_a.send.size(), 1u);
   EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
   EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
-  ASSERT_EQ(at_a.decisions.size(), 2u) << "send whole as reference, then predict";
-  EXPECT_EQ(at_a.decisions[1].action, FrameDecision::Action::kSendSparse);
-  EXPECT_TRUE(decode_preview(at_a.decisions[1].peer_preview));
+  ASSERT_EQ(at_a.decisions.size(), 2u) << "predict, then send whole as reference";
+  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kPredict);
+  ASSERT_TRUE(at_a.decisions[0].peer_preview);
+  EXPECT_TRUE(decode_preview(at_a.decisions[0].peer_preview->bytes));
+  EXPECT_EQ(at_a.decisions[1].action, FrameDecision::Action::kSendReference);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendSparse);
   ASSERT_TRUE(at_b.decisions[0].peer_camera);
@@ -67,17 +67,17 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
 }
 
 TEST_F(PreviewProtocol, TheDependentMaySendDepthLossless) {
-  PreviewOptions options = options_for("b", "a");
+  PreviewOptions options;
   options.lossless_depth = true;
-  dependent = make_preview_dependent(options);
+  dependent = dependent_of(options);
   exchange(1000);
   EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
   EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u);
-  const Result<BlockPreview> preview = decode_preview(at_a.decisions[1].peer_preview);
-  ASSERT_TRUE(preview) << preview.reason();
+  ASSERT_TRUE(at_a.decisions[0].peer_preview);
+  const BlockPreview* preview = &at_a.decisions[0].peer_preview->preview;
   EXPECT_EQ(preview->coding, PreviewDepth::kCounts);
-  const PoseFramePtr sent = frame_b();
+  const RgbdFramePtr sent = frame_b();
   const BlockPreview exact = make_exact_preview(sent->depth, sent->bgr);
   EXPECT_TRUE(std::equal(exact.depth.begin<std::uint16_t>(), exact.depth.end<std::uint16_t>(),
                          preview->depth.begin<std::uint16_t>()));
@@ -95,7 +95,7 @@ TEST_F(PreviewProtocol, IntrinsicsCrossTheRadioOnce) {
 
 TEST_F(PreviewProtocol, ARestartedReferenceIsToldTheCameraAgain) {
   exchange(1000);
-  reference = make_preview_reference(options_for("a", "b"));
+  reference = reference_of();
   exchange(2000);
   EXPECT_EQ(pose().status, PoseStatus::kMalformed);
   EXPECT_EQ(at_b.decisions.at(0).action, FrameDecision::Action::kSendWhole);
@@ -115,7 +115,7 @@ TEST_F(PreviewProtocol, WithoutAnAnswerBGoesOutWhole) {
 
 TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
   dependent->offer(frame_b(), 0, at_b);
-  reference->receive(at_b.send.at(0), 0, at_a);
+  reference->receive("b", at_b.send.at(0), 0, at_a);
   EXPECT_TRUE(at_a.send.empty());
   reference->offer(frame_a(), 0, at_a);
   ASSERT_EQ(at_a.send.size(), 1u);
@@ -126,12 +126,12 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
   for (const double seconds : {3.7, -3.7}) {
     SCOPED_TRACE(seconds);
     at_a = at_b = {};
-    dependent = make_preview_dependent(options_for("b", "a"));
-    reference = make_preview_reference(options_for("a", "b"));
+    dependent = dependent_of();
+    reference = reference_of();
     const Stamp stamp = from_seconds(100.0);
     reference->offer(frame_a(stamp), 0, at_a);
     dependent->offer(frame_b(stamp + from_seconds(seconds)), 0, at_b);
-    reference->receive(at_b.send.at(0), 0, at_a);
+    reference->receive("b", at_b.send.at(0), 0, at_a);
     for (const double later : {0.1, 0.2, 0.3, 0.4}) {  // frames go on, and none is of that time
       reference->offer(frame_a(stamp + from_seconds(later)), from_seconds(later), at_a);
       reference->tick(from_seconds(later), at_a);
@@ -143,7 +143,7 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
     EXPECT_EQ(pose().stamp, stamp + from_seconds(0.4))
         << "of a frame of its own: clocks are compared by it";
     EXPECT_TRUE(at_a.decisions.empty()) << "nothing is sent for it";
-    dependent->receive(at_a.send[0], from_seconds(0.6), at_b);
+    dependent->receive("a", at_a.send[0], from_seconds(0.6), at_b);
     ASSERT_EQ(at_b.decisions.size(), 1u);
     EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
     EXPECT_NE(at_b.decisions[0].reason.find("clocks"), std::string::npos);
@@ -154,7 +154,7 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
 
 TEST_F(PreviewProtocol, AReferenceWithoutAFrameStaysSilent) {
   dependent->offer(frame_b(), 0, at_b);
-  reference->receive(at_b.send.at(0), 0, at_a);
+  reference->receive("b", at_b.send.at(0), 0, at_a);
   reference->tick(from_seconds(2.0), at_a);
   EXPECT_TRUE(at_a.send.empty());
 }
@@ -174,9 +174,9 @@ TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) 
 class BusyReference : public PreviewProtocol {
  protected:
   BusyReference() {
-    PreviewOptions options = options_for("a", "b");
+    PreviewOptions options;
     options.reference_age = kAge;
-    reference = make_preview_reference(options);
+    reference = reference_of(options);
     exchange(1000);
     exchange(2000);
   }
@@ -190,7 +190,7 @@ TEST_F(BusyReference, RefersToWhatTheStationHolds) {
   EXPECT_EQ(pose().stamp, 1000);
   EXPECT_EQ(pose().dependent_stamp, 3000);
   ASSERT_EQ(at_a.decisions.size(), 1u) << "nothing is sent whole once more";
-  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kSendSparse);
+  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kPredict);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendSparse);
 }
@@ -206,7 +206,7 @@ TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
   exchange(3000);
   EXPECT_EQ(pose().stamp, 2000) << "the station holds it";
   ASSERT_EQ(at_a.decisions.size(), 2u);
-  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kSendWhole);
+  EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kSendReference);
   EXPECT_EQ(at_a.decisions[0].frame->stamp, 3000);
 }
 
@@ -228,7 +228,7 @@ TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
   at_a = at_b = {};
   const Stamp later = from_seconds(500.0);
   dependent->offer(frame_b(later), now, at_b);
-  reference->receive(at_b.send.at(0), now, at_a);
+  reference->receive("b", at_b.send.at(0), now, at_a);
   EXPECT_TRUE(at_a.send.empty()) << "its own frame may be about to arrive";
   for (Stamp stamp = 4000; stamp < 4006; ++stamp) {  // a camera's usual rate
     now += from_seconds(0.033);
@@ -242,8 +242,8 @@ TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
 TEST_F(PreviewProtocol, DoubledPreviewsAreAnsweredOnce) {
   reference->offer(frame_a(), 0, at_a);
   dependent->offer(frame_b(), 0, at_b);
-  reference->receive(at_b.send.at(0), 0, at_a);
-  reference->receive(at_b.send.at(0), 0, at_a);
+  reference->receive("b", at_b.send.at(0), 0, at_a);
+  reference->receive("b", at_b.send.at(0), 0, at_a);
   EXPECT_EQ(at_a.send.size(), 1u);
 }
 
@@ -252,7 +252,7 @@ TEST_F(PreviewProtocol, MessagesForOthersAreIgnored) {
   dependent->offer(frame_b(), 0, at_b);
   auto message = std::get<PreviewMessage>(at_b.send.at(0));
   message.receiver = "c";
-  reference->receive(message, 0, at_a);
+  reference->receive("b", message, 0, at_a);
   EXPECT_TRUE(at_a.send.empty());
 }
 
@@ -268,7 +268,7 @@ TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
       message.data[random() % 40] = static_cast<std::uint8_t>(random());
     }
     if (trial % 3 == 0) message.data.resize(random() % message.data.size());
-    reference->receive(message, 0, at_a);
+    reference->receive("b", message, 0, at_a);
   }
   EXPECT_FALSE(at_a.problems.empty());
   dependent->tick(from_seconds(1.0), at_b);  // gives up waiting
@@ -283,7 +283,7 @@ TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
   bad.exchange = 1;
   bad.status = PoseStatus::kAccepted;
   bad.motion.linear() *= 2.0;
-  dependent->receive(bad, 0, at_b);
+  dependent->receive("a", bad, 0, at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
   EXPECT_FALSE(at_b.problems.empty());

@@ -11,7 +11,7 @@ namespace rprr {
 namespace {
 
 PreviewView coarse_view(const Pose& m_ab) {
-  const PoseFramePtr frame = textured_frame(m_ab, 1, "x");
+  const RgbdFramePtr frame = textured_frame(m_ab, 1, "x");
   return half_view(make_view(make_preview(frame->depth, frame->bgr, 0.003), kTestCamera));
 }
 

@@ -17,13 +17,6 @@ namespace {
 
 constexpr Duration kMillisecond = 1000000;
 
-SamplesOptions options_for(const std::string& self, const std::string& peer) {
-  SamplesOptions options;
-  options.self = self;
-  options.peer = peer;
-  return options;
-}
-
 // Two roles on a channel that a test may disturb: each message may be passed, dropped, doubled or
 // replaced.
 class Pair {
@@ -31,15 +24,13 @@ class Pair {
   using Channel = std::function<std::vector<PoseMessage>(const PoseMessage&, bool from_reference)>;
 
   explicit Pair(const std::function<void(SamplesOptions&)>& change = [](SamplesOptions&) {}) {
-    SamplesOptions a = options_for("a", "b");
-    SamplesOptions b = options_for("b", "a");
-    change(a);
-    change(b);
-    reference = make_samples_reference(a);
-    dependent = make_samples_dependent(b);
+    SamplesOptions options;
+    change(options);
+    reference = make_samples_reference("a", "b", options);
+    dependent = make_samples_dependent("b", "a", options);
   }
 
-  void offer(const PoseFramePtr& a, const PoseFramePtr& b) {
+  void offer(const RgbdFramePtr& a, const RgbdFramePtr& b) {
     if (b) give(false, [&](ExchangeRole& role, RoleOutput& out) { role.offer(b, now, out); });
     if (a) give(true, [&](ExchangeRole& role, RoleOutput& out) { role.offer(a, now, out); });
   }
@@ -49,8 +40,9 @@ class Pair {
       for (std::size_t waiting = in_flight.size(); waiting > 0; --waiting) {
         const auto [message, from_reference] = in_flight.front();
         in_flight.pop_front();
+        const std::string sender = from_reference ? "a" : "b";
         give(!from_reference, [&, sent = message](ExchangeRole& role, RoleOutput& out) {
-          role.receive(sent, now, out);
+          role.receive(sender, sent, now, out);
         });
       }
       for (const bool at_reference : {true, false}) {
@@ -89,10 +81,10 @@ class Pair {
 
 const Pose kTruth = test_motion(0.12, 6.0);
 
-PoseFramePtr frame_a(Stamp stamp = 1000) {
+RgbdFramePtr frame_a(Stamp stamp = 1000) {
   return corner_frame(Pose::Identity(), stamp, "a");
 }
-PoseFramePtr frame_b(Stamp stamp = 1000) {
+RgbdFramePtr frame_b(Stamp stamp = 1000) {
   return corner_frame(kTruth, stamp, "b");
 }
 
@@ -106,8 +98,8 @@ TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
   EXPECT_LT(translation_error(pose.motion, kTruth), 0.01);
   EXPECT_LT(rotation_error(pose.motion, kTruth), 0.3);
   ASSERT_EQ(pair.at_reference.size(), 2u) << "send whole as reference, then predict";
-  EXPECT_EQ(pair.at_reference[0].action, FrameDecision::Action::kSendWhole);
-  EXPECT_EQ(pair.at_reference[1].action, FrameDecision::Action::kSendSparse);
+  EXPECT_EQ(pair.at_reference[0].action, FrameDecision::Action::kSendReference);
+  EXPECT_EQ(pair.at_reference[1].action, FrameDecision::Action::kPredict);
   ASSERT_EQ(pair.at_dependent.size(), 1u);
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendSparse);
   ASSERT_TRUE(pair.at_dependent[0].peer_camera);
@@ -295,9 +287,9 @@ TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
   Pair pair;
   pair.offer(frame_a(1000), frame_b(1000));
   pair.run(from_seconds(0.4));
-  SamplesOptions options = options_for("a", "b");
+  SamplesOptions options;
   options.first_exchange = 5000;
-  pair.reference = make_samples_reference(options);
+  pair.reference = make_samples_reference("a", "b", options);
   for (const Stamp stamp : {2000, 3000}) {  // the first tells b that its camera is unknown again
     pair.offer(frame_a(stamp), frame_b(stamp));
     pair.run(from_seconds(1.2));
@@ -306,7 +298,7 @@ TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
 }
 
 TEST(SamplesProtocol, AFrameWithoutDepthIsSaidSo) {
-  auto empty = std::make_shared<PoseFrame>(*frame_a());
+  auto empty = std::make_shared<RgbdFrame>(*frame_a());
   empty->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(0));
   Pair pair;
   pair.offer(empty, frame_b());

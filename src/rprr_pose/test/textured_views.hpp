@@ -20,9 +20,9 @@ inline cv::Vec3b corner_colour(const Eigen::Vector3d& p, double exposure) {
 }
 
 /// Depth and colour of camera b that stands where M_ab says (identity: camera a).
-inline PoseFramePtr textured_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
+inline RgbdFramePtr textured_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
                                    double exposure = 1.0) {
-  auto frame = std::make_shared<PoseFrame>(*corner_frame(m_ab, stamp, robot));
+  auto frame = std::make_shared<RgbdFrame>(*corner_frame(m_ab, stamp, robot));
   frame->bgr.create(kTestCamera.height, kTestCamera.width, CV_8UC3);
   const Pose b_in_a = m_ab.inverse();
   for (int v = 0; v < kTestCamera.height; ++v) {

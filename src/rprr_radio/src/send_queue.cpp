@@ -54,13 +54,13 @@ void SendQueue::set_rate(double bandwidth, double frame_rate) {
   rate_ = RateLimit(limited() ? bandwidth : 1.0);
 }
 
-std::vector<Stamp> SendQueue::offer(QueuedFrame frame, Stamp now) {
-  std::vector<Stamp> dropped;
+std::vector<QueuedFrame> SendQueue::offer(QueuedFrame frame, Stamp now) {
+  std::vector<QueuedFrame> dropped;
   const bool newest_only = is_narrow() || receipts_ceased(now);
   for (auto entry = queue_.begin(); entry != queue_.end();) {
     const bool gives_way =
         newest_only ? entry->frame.sparse == frame.sparse : queue_.size() >= options_.waiting;
-    if (gives_way) dropped.push_back(entry->frame.stamp);
+    if (gives_way) dropped.push_back(std::move(entry->frame));
     entry = gives_way ? queue_.erase(entry) : std::next(entry);
   }
   if (frame.sparse) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_radio_ros/radio_links.hpp"
+#include "rprr_ros/steady_now.hpp"
 
 #include <netdb.h>
 #include <ros/network.h>
@@ -16,12 +17,6 @@ namespace rprr {
 namespace {
 
 constexpr std::chrono::milliseconds kPeriod(250);
-
-Stamp steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 struct HostAndPort {
   std::string host;
@@ -102,10 +97,11 @@ bool tell_publishers(const std::string& topic, const Publishers& publishers) {
 
 }  // namespace
 
-std::size_t renew_subscriptions(const std::string& host) {
+std::size_t renew_subscriptions(const std::string& host, const std::set<std::string>& topics) {
   std::size_t renewed = 0;
   const std::string own = ros::XMLRPCManager::instance()->getServerURI();
   for (const auto& [topic, publishers] : subscriptions()) {
+    if (topics.count(topic) == 0) continue;
     Publishers others;
     for (const std::string& publisher : publishers) {
       if (publisher == own || !is_at(publisher, host)) others.insert(publisher);
@@ -125,7 +121,7 @@ void show(const RadioLinks::State& state, Health& health) {
   }
 }
 
-std::shared_ptr<RadioLinks> RadioLinks::of_this_process() {
+std::shared_ptr<RadioLinks> RadioLinks::look_after(const std::vector<std::string>& topics) {
   static std::mutex mutex;
   static std::weak_ptr<RadioLinks> known;
   const std::lock_guard<std::mutex> lock(mutex);
@@ -134,6 +130,8 @@ std::shared_ptr<RadioLinks> RadioLinks::of_this_process() {
     links.reset(new RadioLinks);
     known = links;
   }
+  const std::lock_guard<std::mutex> state_lock(links->state_mutex_);
+  links->topics_.insert(topics.begin(), topics.end());
   return links;
 }
 
@@ -164,6 +162,11 @@ void RadioLinks::run() {
 }
 
 void RadioLinks::look() {
+  std::set<std::string> topics;
+  {
+    const std::lock_guard<std::mutex> lock(state_mutex_);
+    topics = topics_;
+  }
   std::set<int> probes;
   for (const auto& [name, host] : hosts_) host.probe.add_sockets(probes);
   const std::map<std::string, Peer> peers = peers_of_this_process(probes);
@@ -179,7 +182,7 @@ void RadioLinks::look() {
     const HostWatch::Step step = host.watch.step(peer.quiet, host.probe.was_answered(now), now);
     if (step == HostWatch::Step::kProbe) host.probe.send(peer.listener, now);
     if (step == HostWatch::Step::kRenew) {
-      renewed += renew_subscriptions(name);
+      renewed += renew_subscriptions(name, topics);
       ROS_WARN_STREAM(name << " was out of reach and is back after " << std::lround(peer.quiet)
                            << " s: subscriptions to its nodes are made anew");
     }

@@ -58,7 +58,7 @@ TEST_F(RadioLinksTest, RenewedSubscriptionsAreHeardAgain) {
   std::string host = host_of_this_node();
   if (host == "localhost") host = "127.0.0.1";
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(renew_subscriptions(host), 1U);
+    EXPECT_EQ(renew_subscriptions(host, {"/talk"}), 1U);
     EXPECT_TRUE(hears_all()) << "of talkers 1, 2 and this process heard " << heard_[1] << ", "
                              << heard_[2] << ", " << heard_[3];
     EXPECT_EQ(subscriber_.getNumPublishers(), 3U);
@@ -66,14 +66,22 @@ TEST_F(RadioLinksTest, RenewedSubscriptionsAreHeardAgain) {
 }
 
 TEST_F(RadioLinksTest, OtherHostsAreLeftAlone) {
-  EXPECT_EQ(renew_subscriptions("192.0.2.1"), 0U);
-  EXPECT_EQ(renew_subscriptions(""), 0U);
+  EXPECT_EQ(renew_subscriptions("192.0.2.1", {"/talk"}), 0U);
+  EXPECT_EQ(renew_subscriptions("", {"/talk"}), 0U);
+  EXPECT_TRUE(hears_all());
+}
+
+TEST_F(RadioLinksTest, TopicsOfOthersAreLeftAlone) {
+  std::string host = host_of_this_node();
+  if (host == "localhost") host = "127.0.0.1";
+  EXPECT_EQ(renew_subscriptions(host, {}), 0U);
+  EXPECT_EQ(renew_subscriptions(host, {"/another", "/talk/more"}), 0U);
   EXPECT_TRUE(hears_all());
 }
 
 TEST_F(RadioLinksTest, AProcessHasOne) {
-  const std::shared_ptr<RadioLinks> links = RadioLinks::of_this_process();
-  EXPECT_EQ(links, RadioLinks::of_this_process());
+  const std::shared_ptr<RadioLinks> links = RadioLinks::look_after({"/talk"});
+  EXPECT_EQ(links, RadioLinks::look_after({"/another"}));
   EXPECT_EQ(links->state().renewed, 0U);
   EXPECT_TRUE(links->state().unanswered_for.empty()) << "this host is not across a radio";
 }

@@ -69,7 +69,7 @@ TEST(SendQueue, WithoutALimitTheOldestGivesWayInAFullQueue) {
   SendQueue queue(options_of(0.0));
   std::vector<Stamp> dropped;
   for (Stamp stamp = 1; stamp <= 7; ++stamp) {
-    for (const Stamp gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone);
+    for (const QueuedFrame& gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone.stamp);
   }
   EXPECT_EQ(dropped, (std::vector<Stamp>{1, 2}));
   EXPECT_EQ(queue.waiting(), 5u);
@@ -138,7 +138,7 @@ TEST(SendQueue, WithALimitOnlyTheNewestWaitsAndIsEncodedLate) {
   pump(queue, kStart, 30000);  // on the air for a while
   std::vector<Stamp> dropped;
   for (Stamp stamp = 2; stamp <= 9; ++stamp) {
-    for (const Stamp gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone);
+    for (const QueuedFrame& gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone.stamp);
   }
   EXPECT_EQ(dropped.size(), 7u);
   EXPECT_FALSE(queue.next_to_encode(kStart)) << "the radio is busy";

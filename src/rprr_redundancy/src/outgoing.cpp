@@ -15,8 +15,7 @@ Outgoing::Outgoing(std::string robot, OutgoingOptions options)
 std::vector<OutgoingDecision> Outgoing::whole(Stamp stamp, std::uint32_t exchange,
                                               std::string reason) {
   // An exchange that ends without a pose after all takes its frame out of the waiting line.
-  const auto same = [stamp](const Waiting& frame) { return frame.stamp == stamp; };
-  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), same), waiting_.end());
+  drop_waiting(stamp);
   if (!decided_.insert(stamp)) return {};
   OutgoingDecision decision;
   decision.stamp = stamp;
@@ -25,12 +24,14 @@ std::vector<OutgoingDecision> Outgoing::whole(Stamp stamp, std::uint32_t exchang
   return {std::move(decision)};
 }
 
-std::vector<OutgoingDecision> Outgoing::accepted(Stamp stamp, std::uint32_t exchange,
-                                                 BlockMask validated, Stamp now) {
+std::vector<OutgoingDecision> Outgoing::accepted(Stamp stamp, const std::string& peer,
+                                                 std::uint32_t exchange, BlockMask validated,
+                                                 Stamp now) {
   if (decided_.contains(stamp) || waits(stamp)) return {};
-  Waiting frame{stamp, exchange, std::move(validated), now + options_.prediction_timeout};
+  Waiting frame{stamp, peer, exchange, std::move(validated), now + options_.prediction_timeout};
   const auto early = std::find_if(early_.begin(), early_.end(), [&](const Early& prediction) {
-    return prediction.stamp == stamp && prediction.exchange == exchange;
+    return prediction.stamp == stamp && prediction.exchange == exchange &&
+           prediction.sender == peer;
   });
   if (early != early_.end()) {
     OutgoingDecision decision = decide(frame, *early);
@@ -51,6 +52,7 @@ std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& mess
   const bool too_long = message.mask.size > options_.largest_mask;
   Early prediction{
       message.stamp,
+      message.sender,
       message.exchange,
       {},
       too_long,
@@ -60,7 +62,8 @@ std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& mess
     prediction.mask.assign(message.mask.data, message.mask.data + message.mask.size);
   }
   const auto frame = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.stamp == message.stamp && waiting.exchange == message.exchange;
+    return waiting.stamp == message.stamp && waiting.exchange == message.exchange &&
+           waiting.peer == message.sender;
   });
   if (frame != waiting_.end()) {
     OutgoingDecision decision = decide(*frame, prediction);
@@ -68,7 +71,8 @@ std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& mess
     return {std::move(decision)};
   }
   const bool repeated = std::any_of(early_.begin(), early_.end(), [&](const Early& early) {
-    return early.stamp == message.stamp && early.exchange == message.exchange;
+    return early.stamp == message.stamp && early.exchange == message.exchange &&
+           early.sender == message.sender;
   });
   if (repeated || options_.early_predictions == 0) return {};
   if (early_.size() >= options_.early_predictions) early_.pop_front();
@@ -84,6 +88,16 @@ std::vector<OutgoingDecision> Outgoing::tick(Stamp now) {
   }
   while (!early_.empty() && early_.front().forget_at <= now) early_.pop_front();
   return decisions;
+}
+
+void Outgoing::settle(Stamp stamp) {
+  drop_waiting(stamp);
+  decided_.insert(stamp);
+}
+
+void Outgoing::drop_waiting(Stamp stamp) {
+  const auto same = [stamp](const Waiting& frame) { return frame.stamp == stamp; };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), same), waiting_.end());
 }
 
 void Outgoing::restart() {

@@ -24,8 +24,8 @@ BlockMask mask_of(std::initializer_list<int> blocks) {
 }
 
 PredictionMessage message(std::uint32_t exchange, Stamp stamp, ByteView mask,
-                          const std::string& receiver = "b") {
-  return {receiver, exchange, stamp, mask, 0};
+                          const std::string& receiver = "b", const std::string& sender = "a") {
+  return {sender, receiver, exchange, stamp, mask, 0};
 }
 
 class OutgoingTest : public testing::Test {
@@ -53,16 +53,16 @@ TEST_F(OutgoingTest, WholeGoesOutAtOnceAndOnce) {
 
 TEST_F(OutgoingTest, AfterARestartStampsNameOtherFrames) {
   outgoing.whole(100, 4, "nobody spoke");
-  outgoing.accepted(101, 5, mask_of({3}), 0);
+  outgoing.accepted(101, "a", 5, mask_of({3}), 0);
   outgoing.restart();
   EXPECT_EQ(outgoing.waiting(), 0u);
   EXPECT_EQ(outgoing.whole(100, 6, "again").size(), 1u);
-  outgoing.accepted(101, 7, mask_of({3}), 0);
+  outgoing.accepted(101, "a", 7, mask_of({3}), 0);
   EXPECT_EQ(outgoing.prediction(message(7, 101, predicted), 1).size(), 1u);
 }
 
 TEST_F(OutgoingTest, SparseIsTheUnionOfBothSets) {
-  EXPECT_TRUE(outgoing.accepted(100, 4, mask_of({3, 9}), 0).empty());
+  EXPECT_TRUE(outgoing.accepted(100, "a", 4, mask_of({3, 9}), 0).empty());
   const auto decisions = outgoing.prediction(message(4, 100, predicted), 1);
   ASSERT_EQ(decisions.size(), 1u);
   EXPECT_TRUE(decisions[0].sparse);
@@ -75,13 +75,13 @@ TEST_F(OutgoingTest, SparseIsTheUnionOfBothSets) {
 }
 
 TEST_F(OutgoingTest, DepthIsWhatTheReferenceAsksForAndWhatItCannotSee) {
-  outgoing.accepted(100, 4, mask_of({3, 9}), 0);
+  outgoing.accepted(100, "a", 4, mask_of({3, 9}), 0);
   const Bytes pair = encode_mask_pair({mask_of({1, 2, 3}), mask_of({2})});
   const auto decisions = outgoing.prediction(message(4, 100, pair), 1);
   ASSERT_EQ(decisions.size(), 1u);
   EXPECT_TRUE(decisions[0].mask == mask_of({1, 2, 3, 9}));
   EXPECT_TRUE(decisions[0].depth_mask == mask_of({2, 3, 9}));
-  outgoing.accepted(101, 5, mask_of({9}), 1);
+  outgoing.accepted(101, "a", 5, mask_of({9}), 1);
   const auto paper = outgoing.prediction(message(5, 101, predicted), 1);
   ASSERT_EQ(paper.size(), 1u);
   EXPECT_TRUE(paper[0].depth_mask == paper[0].mask) << "one mask stands for both";
@@ -89,14 +89,14 @@ TEST_F(OutgoingTest, DepthIsWhatTheReferenceAsksForAndWhatItCannotSee) {
 
 TEST_F(OutgoingTest, PredictionMayComeFirst) {
   EXPECT_TRUE(outgoing.prediction(message(4, 100, predicted), 0).empty());
-  const auto decisions = outgoing.accepted(100, 4, mask_of({}), 1);
+  const auto decisions = outgoing.accepted(100, "a", 4, mask_of({}), 1);
   ASSERT_EQ(decisions.size(), 1u);
   EXPECT_TRUE(decisions[0].sparse);
   EXPECT_EQ(outgoing.early_predictions(), 0u);
 }
 
 TEST_F(OutgoingTest, SilenceSendsTheFrameWhole) {
-  outgoing.accepted(100, 4, mask_of({}), 0);
+  outgoing.accepted(100, "a", 4, mask_of({}), 0);
   EXPECT_TRUE(outgoing.tick(kTimeout - 1).empty());
   const auto decisions = outgoing.tick(kTimeout);
   ASSERT_EQ(decisions.size(), 1u);
@@ -107,25 +107,27 @@ TEST_F(OutgoingTest, SilenceSendsTheFrameWhole) {
 }
 
 TEST_F(OutgoingTest, StrangersAndMismatchesAreIgnored) {
-  outgoing.accepted(100, 4, mask_of({}), 0);
+  outgoing.accepted(100, "a", 4, mask_of({}), 0);
   EXPECT_TRUE(outgoing.prediction(message(4, 100, predicted, "c"), 1).empty()) << "for another";
   EXPECT_TRUE(outgoing.prediction(message(3, 100, predicted), 1).empty()) << "old exchange";
   EXPECT_TRUE(outgoing.prediction(message(4, 99, predicted), 1).empty()) << "another frame";
+  EXPECT_TRUE(outgoing.prediction(message(4, 100, predicted, "b", "c"), 1).empty())
+      << "of another peer";
   EXPECT_EQ(outgoing.prediction(message(4, 100, predicted), 1).size(), 1u);
   EXPECT_TRUE(outgoing.prediction(message(4, 100, predicted), 2).empty()) << "repeated";
 }
 
 TEST_F(OutgoingTest, DuplicateEventsDecideOnce) {
-  outgoing.accepted(100, 4, mask_of({}), 0);
-  EXPECT_TRUE(outgoing.accepted(100, 4, mask_of({}), 1).empty());
+  outgoing.accepted(100, "a", 4, mask_of({}), 0);
+  EXPECT_TRUE(outgoing.accepted(100, "a", 4, mask_of({}), 1).empty());
   EXPECT_EQ(outgoing.waiting(), 1u);
   EXPECT_EQ(outgoing.prediction(message(4, 100, predicted), 1).size(), 1u);
-  EXPECT_TRUE(outgoing.accepted(100, 4, mask_of({}), 2).empty());
+  EXPECT_TRUE(outgoing.accepted(100, "a", 4, mask_of({}), 2).empty());
   EXPECT_TRUE(outgoing.whole(100, 4, "late").empty());
 }
 
 TEST_F(OutgoingTest, WholeOverridesAFrameThatWaits) {
-  outgoing.accepted(100, 4, mask_of({}), 0);
+  outgoing.accepted(100, "a", 4, mask_of({}), 0);
   EXPECT_EQ(outgoing.whole(100, 4, "rejected after all").size(), 1u);
   EXPECT_EQ(outgoing.waiting(), 0u);
   EXPECT_TRUE(outgoing.tick(kTimeout).empty());
@@ -139,13 +141,13 @@ TEST_F(OutgoingTest, UnreadablePredictionSendsTheFrameWhole) {
   small.largest_mask = 16;
   const Bytes long_mask(17, 0);
   Outgoing strict("b", small);
-  strict.accepted(1, 1, mask_of({}), 0);
+  strict.accepted(1, "a", 1, mask_of({}), 0);
   const auto too_long = strict.prediction(message(1, 1, long_mask), 0);
   ASSERT_EQ(too_long.size(), 1u);
   EXPECT_NE(too_long[0].reason.find("too long"), std::string::npos);
   Stamp stamp = 100;
   for (const Bytes& bytes : {other_size, cut, Bytes{}, Bytes(5000, 0xAB)}) {
-    outgoing.accepted(++stamp, 4, mask_of({1}), 0);
+    outgoing.accepted(++stamp, "a", 4, mask_of({1}), 0);
     const auto decisions = outgoing.prediction(message(4, stamp, bytes), 0);
     ASSERT_EQ(decisions.size(), 1u);
     EXPECT_FALSE(decisions[0].sparse);
@@ -157,7 +159,7 @@ TEST_F(OutgoingTest, UnreadablePredictionSendsTheFrameWhole) {
 TEST_F(OutgoingTest, MemoryIsBounded) {
   std::size_t whole = 0;
   for (Stamp stamp = 1; stamp <= 100; ++stamp) {
-    whole += outgoing.accepted(stamp, 1, mask_of({}), 0).size();
+    whole += outgoing.accepted(stamp, "a", 1, mask_of({}), 0).size();
     outgoing.prediction(message(2, 1000 + stamp, predicted), 0);
   }
   EXPECT_EQ(outgoing.waiting(), 3u);
@@ -168,9 +170,9 @@ TEST_F(OutgoingTest, MemoryIsBounded) {
 }
 
 TEST_F(OutgoingTest, APeerThatStartsAgainIsHeard) {
-  outgoing.accepted(100, 900, mask_of({}), 0);
+  outgoing.accepted(100, "a", 900, mask_of({}), 0);
   EXPECT_EQ(outgoing.prediction(message(900, 100, predicted), 0).size(), 1u);
-  outgoing.accepted(200, 1, mask_of({}), 1);
+  outgoing.accepted(200, "a", 1, mask_of({}), 1);
   EXPECT_EQ(outgoing.prediction(message(1, 200, predicted), 1).size(), 1u);
 }
 
@@ -191,7 +193,7 @@ TEST_F(OutgoingTest, EveryFrameIsDecidedOnceWhateverTheChannelDoes) {
     };
     predict();
     if (random() % 4 == 0) count(outgoing.whole(stamp, exchange, "rejected"));
-    count(outgoing.accepted(stamp, exchange, mask_of({}), now));
+    count(outgoing.accepted(stamp, "a", exchange, mask_of({}), now));
     predict();
     now += static_cast<Stamp>(random() % 3) * kTimeout / 2;
     count(outgoing.tick(now));

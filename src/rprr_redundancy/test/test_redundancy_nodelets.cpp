@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plays two robots' cameras and the pose exchange; Prediction of eyebug_a and Validation of
-// eyebug_b are started by the .test files, as nodelets and as nodes.
+// Plays the pose exchange of two robots; Redundancy of eyebug_a and of eyebug_b are started by the
+// .test files, as nodelets and as nodes.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -20,6 +20,7 @@
 #include "rprr_redundancy/prediction.hpp"
 #include "rprr_redundancy/validation.hpp"
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/frame_message.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/camera_wire.hpp"
 #include "rprr_wire/mask_wire.hpp"
@@ -84,45 +85,47 @@ class Robot {
  public:
   Robot(ros::NodeHandle& nh, const std::string& name)
       : name_(name),
-        rgb_(nh.advertise<sensor_msgs::Image>("/" + name + "/camera/rgb/image_rect_color", 5)),
-        info_(nh.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera/rgb/camera_info", 5)),
-        depth_(nh.advertise<sensor_msgs::Image>("/" + name + "/camera/depth_registered/image_rect",
-                                                5)),
         events_(nh.advertise<rprr_msgs::ExchangeEvent>("/" + name + "/rprr/exchange", 5)) {}
 
-  bool connected() const {
-    return rgb_.getNumSubscribers() > 0 && info_.getNumSubscribers() > 0 &&
-           depth_.getNumSubscribers() > 0 && events_.getNumSubscribers() > 0;
+  bool connected() const { return events_.getNumSubscribers() > 0; }
+  /// With the robot's frame of that stamp.
+  void publish(rprr_msgs::ExchangeEvent event) {
+    RgbdFrame frame;
+    frame.stamp = to_stamp(event.frame.header.stamp);
+    frame.frame_id = optical_frame(name_);
+    frame.camera = rounded_for_wire(kCamera);
+    frame.depth = depth_of(name_);
+    frame.bgr = colours_of(name_);
+    event.frame = to_message(frame);
+    events_.publish(event);
   }
-  void show(ros::Time stamp) {
-    std_msgs::Header header;
-    header.stamp = stamp;
-    header.frame_id = "/" + optical_frame(name_);
-    info_.publish(info_from_camera(kCamera, header));
-    ros::Duration(0.05).sleep();  // info comes over another connection
-    rgb_.publish(to_image(header, "bgr8", colours_of(name_)));
-    depth_.publish(to_depth_image(header, depth_of(name_)));
-  }
-  void publish(const rprr_msgs::ExchangeEvent& event) { events_.publish(event); }
 
  private:
   std::string name_;
-  ros::Publisher rgb_, info_, depth_, events_;
+  ros::Publisher events_;
 };
 
 rprr_msgs::ExchangeEvent whole(ros::Time stamp, const std::string& peer) {
   rprr_msgs::ExchangeEvent event;
-  event.header.stamp = stamp;
+  event.frame.header.stamp = stamp;
   event.action = rprr_msgs::ExchangeEvent::SEND_WHOLE;
   event.peer = peer;
   event.reason = "a test";
   return event;
 }
 
-rprr_msgs::ExchangeEvent sparse(ros::Time stamp, const std::string& peer, std::uint32_t exchange,
-                                ros::Time a_stamp, ros::Time b_stamp) {
+rprr_msgs::ExchangeEvent reference(ros::Time stamp, const std::string& peer) {
   rprr_msgs::ExchangeEvent event = whole(stamp, peer);
-  event.action = rprr_msgs::ExchangeEvent::SEND_SPARSE;
+  event.action = rprr_msgs::ExchangeEvent::SEND_REFERENCE;
+  return event;
+}
+
+// A pose was accepted: of a's frame the event that asks to predict, of b's that to send sparsely.
+rprr_msgs::ExchangeEvent accepted(ros::Time stamp, const std::string& peer, std::uint32_t exchange,
+                                  ros::Time a_stamp, ros::Time b_stamp) {
+  rprr_msgs::ExchangeEvent event = whole(stamp, peer);
+  event.action = peer == "eyebug_b" ? rprr_msgs::ExchangeEvent::PREDICT
+                                    : rprr_msgs::ExchangeEvent::SEND_SPARSE;
   event.exchange = exchange;
   event.pose.status = rprr_msgs::RelativePose::ACCEPTED;
   event.pose.header.stamp = a_stamp;
@@ -136,7 +139,7 @@ rprr_msgs::ExchangeEvent sparse(ros::Time stamp, const std::string& peer, std::u
   return event;
 }
 
-class Redundancy : public testing::Test {
+class RedundancyNodes : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(wait([this] {
@@ -146,8 +149,6 @@ class Redundancy : public testing::Test {
     })) << "the nodelets do not listen on the fixed topics";
     a_stamp = ros::Time(1000 + 10 * ++tests, 123456789);
     b_stamp = a_stamp + ros::Duration(1);
-    a.show(a_stamp);
-    b.show(b_stamp);
   }
   static bool wait(const std::function<bool()>& condition, double seconds = 10) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
@@ -176,13 +177,13 @@ class Redundancy : public testing::Test {
   ros::Time a_stamp;
   ros::Time b_stamp;
 };
-int Redundancy::tests = 0;
+int RedundancyNodes::tests = 0;
 
-TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
-  a.publish(whole(a_stamp, "eyebug_b"));
-  a.publish(whole(a_stamp, "eyebug_c"));  // another dependent, the same reference frame
-  a.publish(sparse(a_stamp, "eyebug_b", 7, a_stamp, b_stamp));
-  b.publish(sparse(b_stamp, "eyebug_a", 7, a_stamp, b_stamp));
+TEST_F(RedundancyNodes, AnExchangeFromEventsToOutgoingFrames) {
+  a.publish(accepted(a_stamp, "eyebug_b", 7, a_stamp, b_stamp));
+  a.publish(reference(a_stamp, "eyebug_b"));
+  a.publish(reference(a_stamp, "eyebug_c"));  // another dependent, the same reference frame
+  b.publish(accepted(b_stamp, "eyebug_a", 7, a_stamp, b_stamp));
   ASSERT_TRUE(wait([this] {
     return !a_out.messages.empty() && !b_out.messages.empty() && !mask.messages.empty() &&
            !rgb.messages.empty() && !depth.messages.empty() && !validation.messages.empty();
@@ -191,9 +192,10 @@ TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
 
   ASSERT_EQ(a_out.messages.size(), 1u) << "a reference frame goes out once";
   EXPECT_FALSE(a_out.messages[0]->sparse);
-  EXPECT_EQ(a_out.messages[0]->header.stamp, a_stamp);
-  EXPECT_EQ(a_out.messages[0]->header.frame_id, "eyebug_a_rgb_optical_frame") << "slash cleaned";
-  EXPECT_EQ(a_out.messages[0]->rgb.data.size(), 160u * 120 * 3);
+  EXPECT_EQ(a_out.messages[0]->frame.header.stamp, a_stamp);
+  EXPECT_EQ(a_out.messages[0]->frame.header.frame_id, "eyebug_a_rgb_optical_frame");
+  EXPECT_GT(a_out.messages[0]->ms_predict, 0.0f) << "the prediction took time";
+  EXPECT_EQ(a_out.messages[0]->frame.bgr.size(), 160u * 120 * 3);
 
   const BlockGrid grid(160, 120);
   const Camera camera = rounded_for_wire(kCamera);
@@ -212,7 +214,7 @@ TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
   EXPECT_TRUE(out.sparse);
   EXPECT_EQ(out.reference, "eyebug_a");
   EXPECT_EQ(out.reference_stamp, a_stamp);
-  EXPECT_EQ(out.header.stamp, b_stamp);
+  EXPECT_EQ(out.frame.header.stamp, b_stamp);
   EXPECT_EQ(out.exchange, 7u);
   BlockMask expected = predicted;
   expected |= validated;
@@ -222,7 +224,7 @@ TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
   EXPECT_EQ(out.blocks_predicted, static_cast<std::uint32_t>(predicted.count()));
   EXPECT_EQ(out.blocks_validated, static_cast<std::uint32_t>(validated.count()));
   EXPECT_EQ(out.mask_bytes, ros::serialization::serializationLength(*prediction.messages[0]));
-  EXPECT_EQ(out.exchange_bytes, 5000 + out.mask_bytes);
+  EXPECT_EQ(out.pose_bytes, 5000u);
   EXPECT_TRUE(pose_from_fields(out.translation, out.rotation).isApprox(m_ab()));
 
   EXPECT_EQ(cv::countNonZero(cv::Mat(mask.messages[0]->data)),
@@ -233,11 +235,11 @@ TEST_F(Redundancy, AnExchangeFromEventsToOutgoingFrames) {
   EXPECT_TRUE(*shown == validated);
 }
 
-TEST_F(Redundancy, APreviewDecidesColourAndDepthOfEveryBlock) {
-  rprr_msgs::ExchangeEvent event = sparse(a_stamp, "eyebug_b", 21, a_stamp, b_stamp);
+TEST_F(RedundancyNodes, APreviewDecidesColourAndDepthOfEveryBlock) {
+  rprr_msgs::ExchangeEvent event = accepted(a_stamp, "eyebug_b", 21, a_stamp, b_stamp);
   event.peer_preview = preview_of_b();
   a.publish(event);
-  b.publish(sparse(b_stamp, "eyebug_a", 21, a_stamp, b_stamp));
+  b.publish(accepted(b_stamp, "eyebug_a", 21, a_stamp, b_stamp));
   ASSERT_TRUE(wait([this] {
     return !prediction.messages.empty() && !decision.messages.empty() && !points.messages.empty() &&
            !b_out.messages.empty();
@@ -300,30 +302,15 @@ TEST_F(Redundancy, APreviewDecidesColourAndDepthOfEveryBlock) {
   EXPECT_TRUE(*depth_blocks == all_depth);
 }
 
-TEST_F(Redundancy, APreviewThatIsNoneIsPassedOver) {
-  rprr_msgs::ExchangeEvent event = sparse(a_stamp, "eyebug_b", 22, a_stamp, b_stamp);
-  event.peer_preview = preview_of_b();
-  event.peer_preview.resize(event.peer_preview.size() / 2);
-  a.publish(event);
-  ASSERT_TRUE(wait([this] { return !prediction.messages.empty(); }));
-  const Camera camera = rounded_for_wire(kCamera);
-  const auto sent = decode_mask(prediction.messages[0]->data, BlockGrid(160, 120));
-  ASSERT_TRUE(sent) << sent.reason();
-  EXPECT_TRUE(*sent == Predictor().predict(depth_of("eyebug_a"), camera, camera, m_ab()))
-      << "the paper's B_p";
-  wait([] { return false; }, 0.2);
-  EXPECT_TRUE(decision.messages.empty() && points.messages.empty()) << "there is nothing to show";
-}
-
-TEST_F(Redundancy, SilenceOfTheReferenceSendsTheFrameWhole) {
-  b.publish(sparse(b_stamp, "eyebug_a", 8, a_stamp, b_stamp));
+TEST_F(RedundancyNodes, SilenceOfTheReferenceSendsTheFrameWhole) {
+  b.publish(accepted(b_stamp, "eyebug_a", 8, a_stamp, b_stamp));
   ASSERT_TRUE(wait([this] { return !b_out.messages.empty(); }));
   EXPECT_FALSE(b_out.messages[0]->sparse);
-  EXPECT_EQ(b_out.messages[0]->header.stamp, b_stamp);
+  EXPECT_EQ(b_out.messages[0]->frame.header.stamp, b_stamp);
 }
 
-TEST_F(Redundancy, GarbageOnTheRadioSendsTheFrameWhole) {
-  b.publish(sparse(b_stamp, "eyebug_a", 9, a_stamp, b_stamp));
+TEST_F(RedundancyNodes, GarbageOnTheRadioSendsTheFrameWhole) {
+  b.publish(accepted(b_stamp, "eyebug_a", 9, a_stamp, b_stamp));
   rprr_msgs::BlockMask garbage;
   garbage.header.stamp = b_stamp;
   garbage.receiver = "eyebug_b";
@@ -334,24 +321,27 @@ TEST_F(Redundancy, GarbageOnTheRadioSendsTheFrameWhole) {
   EXPECT_FALSE(b_out.messages[0]->sparse);
 }
 
-TEST_F(Redundancy, BadEventsHurtNobody) {
-  rprr_msgs::ExchangeEvent no_camera = sparse(a_stamp, "eyebug_b", 10, a_stamp, b_stamp);
+TEST_F(RedundancyNodes, BadEventsHurtNobody) {
+  rprr_msgs::ExchangeEvent no_camera = accepted(a_stamp, "eyebug_b", 10, a_stamp, b_stamp);
   no_camera.peer_camera.assign(3, 0);
   a.publish(no_camera);
-  rprr_msgs::ExchangeEvent no_pose = sparse(b_stamp, "eyebug_a", 10, a_stamp, b_stamp);
+  rprr_msgs::ExchangeEvent no_preview = accepted(a_stamp, "eyebug_b", 10, a_stamp, b_stamp);
+  no_preview.peer_preview = preview_of_b();
+  no_preview.peer_preview.resize(no_preview.peer_preview.size() / 2);
+  a.publish(no_preview);
+  rprr_msgs::ExchangeEvent no_pose = accepted(b_stamp, "eyebug_a", 10, a_stamp, b_stamp);
   no_pose.pose.translation[0] = std::nan("");
   b.publish(no_pose);
-  b.publish(sparse(b_stamp + ros::Duration(100), "eyebug_a", 11, a_stamp, b_stamp));  // no frame
   ASSERT_TRUE(wait([this] { return !b_out.messages.empty(); }));
   EXPECT_FALSE(b_out.messages[0]->sparse) << "no usable pose: whole";
+  EXPECT_TRUE(prediction.messages.empty()) << "nothing is made of what cannot be read";
+  a.publish(reference(a_stamp, "eyebug_b"));
   EXPECT_TRUE(wait([this] { return !a_out.messages.empty(); })) << "the reference goes out";
-  const ros::Time later = b_stamp + ros::Duration(2);
-  b.show(later);
-  b.publish(whole(later, ""));
+  b.publish(whole(b_stamp + ros::Duration(2), ""));
   EXPECT_TRUE(wait([this] { return b_out.messages.size() == 2; })) << "and life goes on";
 }
 
-TEST_F(Redundancy, DiagnosticsNameTheRobot) {
+TEST_F(RedundancyNodes, DiagnosticsNameTheRobot) {
   bool found_a = false;
   bool found_b = false;
   const auto subscriber = nh.subscribe<diagnostic_msgs::DiagnosticArray>(

@@ -138,13 +138,11 @@ void RgbdSubscriber::emit(const sensor_msgs::ImageConstPtr& rgb,
 
   const auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = to_stamp(rgb->header.stamp);
-  frame->header = rgb->header;
-  frame->header.frame_id = clean_frame(rgb->header.frame_id);
+  frame->frame_id = clean_frame(rgb->header.frame_id);
   frame->camera = *camera;
   frame->bgr = *bgr;
   frame->depth = *counts;
-  frame->rgb_message = rgb;
-  frame->depth_message = depth;
+  frame->owner = std::make_shared<const Images>(Images{rgb, depth});
   health_.count("frames");
   callback_(frame);
 }

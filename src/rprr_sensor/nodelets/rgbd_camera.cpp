@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/steady_now.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {
@@ -24,12 +25,6 @@ std::optional<RegistrationChoice> registration_of(const std::string& name) {
   if (name == "device") return RegistrationChoice::device;
   if (name == "own") return RegistrationChoice::own;
   return std::nullopt;
-}
-
-Stamp steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
 }
 
 DeviceControls controls_of(const rprr_sensor::RgbdCameraConfig& config) {

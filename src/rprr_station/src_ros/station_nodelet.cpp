@@ -74,7 +74,6 @@ class StationNodelet : public nodelet::Nodelet {
     parameters_ = *parameters;
     const std::vector<std::string>& names = parameters_.station.robots;
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
-    links_ = RadioLinks::of_this_process();
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
     points_ = nh.advertise<sensor_msgs::PointCloud2>("/station/points", 2);
     receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
@@ -92,6 +91,9 @@ class StationNodelet : public nodelet::Nodelet {
           [this, name](const Event& event) { on_encoded(name, event); });
       options.transport_hints = ros::TransportHints().tcpNoDelay();
       robots_[name].encoded = nh.subscribe(options);
+      if (parameters_.link_recovery) {
+        links_ = RadioLinks::look_after({robots_[name].encoded.getTopic()});
+      }
     }
     timer_ = nh.createWallTimer(ros::WallDuration(0.2), &StationNodelet::on_timer, this);
   }
@@ -159,7 +161,7 @@ class StationNodelet : public nodelet::Nodelet {
       if (++ticks_ % kTicksOfReceipts == 0) {
         for (const auto& [name, robot] : robots_) publish_receipt(name, {});
         watch_silence();
-        show(links_->state(), *health_);
+        if (links_) show(links_->state(), *health_);
       }
     });
   }
@@ -281,7 +283,7 @@ class StationNodelet : public nodelet::Nodelet {
   ros::Publisher receipts_;
   ros::Publisher points_;
   ros::Publisher frusta_;
-  std::shared_ptr<RadioLinks> links_;
+  std::shared_ptr<RadioLinks> links_;  // null: links are not recovered
   SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;

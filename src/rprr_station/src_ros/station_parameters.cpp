@@ -111,6 +111,7 @@ Result<StationParameters> read_station_parameters(const ros::NodeHandle& private
   parameters.station.energy.bytes_per_second = given.param("radio_bytes_per_second", 1e6);
   parameters.frustum_length = std::max(given.param("frustum_length", 0.5), 0.01);
   parameters.queue = at_least(given, "queue", 4, 1);
+  parameters.link_recovery = given.param("link_recovery", parameters.link_recovery);
   return parameters;
 }
 

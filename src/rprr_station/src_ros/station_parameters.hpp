@@ -17,6 +17,7 @@ struct StationParameters {
   SceneCloudOptions cloud;
   Duration cloud_period = from_seconds(0.5);  // least time between scene clouds
   std::size_t queue = 4;                      // messages per robot that may wait for the decoder
+  bool link_recovery = true;                  // RadioLinks look after the robots' topics
 };
 
 /// The private parameters of config/station.yaml. Errors name the parameter and what it may be.

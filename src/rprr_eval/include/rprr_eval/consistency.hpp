@@ -6,8 +6,8 @@
 
 #include "rprr_eval/metrics.hpp"
 #include "rprr_eval/profile.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/pose_frame.hpp"
 #include "rprr_pose/pose_status.hpp"
 
 namespace rprr {
@@ -30,7 +30,7 @@ struct ConsistencyOptions {
 
 /// Two frames with exact truth.
 struct TruePair {
-  PoseFramePtr a, b;
+  RgbdFramePtr a, b;
   Pose truth = Pose::Identity();  // M_ab
 };
 

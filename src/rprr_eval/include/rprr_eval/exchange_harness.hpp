@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rprr_pose/exchange.hpp"
@@ -11,25 +12,29 @@ namespace rprr {
 
 /// What one exchange between two robots led to.
 struct ExchangeOutcome {
-  std::optional<RelativePoseMessage> pose;    // as the reference ended it; none if it never did
-  std::optional<FrameDecision> at_reference;  // kSendSparse: what to predict for the dependent
-  FrameDecision at_dependent;                 // what becomes of b's frame
-  std::size_t bytes = 0;                      // serialised, both ways
-  int messages = 0;                           // both ways
-  double seconds_compute = 0.0;               // processor time of both roles
-  Duration elapsed = 0;                       // on the simulated clock
+  std::optional<RelativePoseMessage> pose;  // as the reference ended it; none if it never did
+  std::vector<FrameDecision> at_reference;  // in their order
+  FrameDecision at_dependent;               // what becomes of b's frame
+  std::size_t bytes = 0;                    // serialised, both ways
+  int messages = 0;                         // both ways
+  double seconds_compute = 0.0;             // processor time of both roles
+  Duration elapsed = 0;                     // on the simulated clock
 };
 
-/// Two roles tied back to back on a simulated clock: the state machines that the nodelets run,
-/// without ROS. Messages arrive one latency after they were sent, in order.
+/// A robot as the reference and one as the dependent, tied back to back on a simulated clock: the
+/// state machines that the nodelets run, without ROS. Messages arrive one latency after they were
+/// sent, in order.
 class ExchangeHarness {
  public:
-  ExchangeHarness(std::unique_ptr<ExchangeRole> reference, std::unique_ptr<ExchangeRole> dependent,
-                  Duration one_way_latency);
+  struct Side {
+    std::string name;  // of the robot, as the other side knows it
+    std::unique_ptr<ExchangeRole> role;
+  };
+  ExchangeHarness(Side reference, Side dependent, Duration one_way_latency);
 
   /// Gives both robots a frame and lets time pass until b's frame is decided. The roles keep what
   /// they know between calls, as robots do.
-  ExchangeOutcome run(const PoseFramePtr& a, const PoseFramePtr& b);
+  ExchangeOutcome run(const RgbdFramePtr& a, const RgbdFramePtr& b);
 
  private:
   struct InFlight {
@@ -42,8 +47,8 @@ class ExchangeHarness {
   template <typename Action>
   void act(bool at_reference, ExchangeOutcome& outcome, const Action& action);
 
-  std::unique_ptr<ExchangeRole> reference_;
-  std::unique_ptr<ExchangeRole> dependent_;
+  Side reference_;
+  Side dependent_;
   const Duration latency_;
   Stamp now_ = 0;
   std::vector<InFlight> channel_;

@@ -12,6 +12,9 @@ namespace rprr {
 
 /// Two robots that have not met, with the profile's protocol between them.
 ExchangeHarness make_exchange(const Profile& profile, Duration one_way_latency);
+/// Robots of these names: b refers to a.
+ExchangeHarness make_exchange(const Profile& profile, const std::string& a, const std::string& b,
+                              Duration one_way_latency);
 
 /// The profile's protocol as a pose method: every call is the first exchange of two robots (cold);
 /// bytes include both ways and the intrinsics. It chooses its start itself. Accepted is what the
@@ -20,6 +23,6 @@ std::unique_ptr<Registration> make_exchange_registration(const std::string& name
                                                          const Profile& profile);
 
 /// A frame under another robot's name and stamp; the pixels stay where they are.
-PoseFramePtr as_frame_of(const PoseFrame& frame, const std::string& robot, Stamp stamp);
+RgbdFramePtr as_frame_of(const RgbdFrame& frame, const std::string& robot, Stamp stamp);
 
 }  // namespace rprr

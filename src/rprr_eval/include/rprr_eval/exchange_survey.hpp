@@ -31,7 +31,7 @@ struct ExchangeSurvey {
 class ExchangeSurveyor {
  public:
   explicit ExchangeSurveyor(ExchangeHarness harness) : harness_(std::move(harness)) {}
-  void add(const PoseFrame& a, const PoseFrame& b);
+  void add(const RgbdFrame& a, const RgbdFrame& b);
   ExchangeSurvey survey() const;
 
  private:

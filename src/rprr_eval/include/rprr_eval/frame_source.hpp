@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rprr_geometry/result.hpp"
-#include "rprr_pose/pose_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_sensor/tum_folder.hpp"
 
 namespace rprr {
@@ -20,16 +20,16 @@ class FrameSource {
 
   const TumFolder& folder() const { return folder_; }
   /// Errors: images that cannot be read.
-  Result<PoseFramePtr> frame(std::size_t entry);
+  Result<RgbdFramePtr> frame(std::size_t entry);
 
  private:
   TumFolder folder_;
   std::size_t kept_;
-  std::map<std::size_t, PoseFramePtr> frames_;
+  std::map<std::size_t, RgbdFramePtr> frames_;
   std::vector<std::size_t> order_;
 };
 
-using FramePair = std::pair<PoseFramePtr, PoseFramePtr>;  // a, b
+using FramePair = std::pair<RgbdFramePtr, RgbdFramePtr>;  // a, b
 
 /// Pairs (k, k + step) of a folder, at most so many, spread evenly.
 Result<std::vector<FramePair>> folder_pairs(FrameSource& source, std::size_t step,

@@ -76,10 +76,10 @@ class WholeFrames {
 
   /// Figures but psnr_new; a curve for each codec, at_profile for those of `also`. Valid until the
   /// next call. key names the frame. Errors: what a codec refuses.
-  Result<const std::vector<MethodCurve>*> of(const std::string& key, const PoseFrame& b);
+  Result<const std::vector<MethodCurve>*> of(const std::string& key, const RgbdFrame& b);
 
  private:
-  Result<MethodCurve> measure(WholeColour& codec, const PoseFrame& b);
+  Result<MethodCurve> measure(WholeColour& codec, const RgbdFrame& b);
 
   std::map<std::string, double> also_;
   std::vector<std::unique_ptr<WholeColour>> codecs_;

@@ -7,11 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "rprr_codec/outgoing_frame.hpp"
 #include "rprr_eval/exchange_harness.hpp"
 #include "rprr_eval/metrics.hpp"
 #include "rprr_eval/profile.hpp"
 #include "rprr_geometry/result.hpp"
-#include "rprr_redundancy/outgoing.hpp"
+#include "rprr_redundancy/redundancy.hpp"
 #include "rprr_sensor/tum_folder.hpp"
 
 namespace rprr {
@@ -39,8 +40,8 @@ nlohmann::json to_json(const PairResult& result);
 /// A pair up to what b sends, before it is encoded.
 struct PreparedPair {
   PairResult result;  // what is known so far: exchange, blocks, pose error, overlap
-  PoseFramePtr a, b;
-  OutgoingDecision decision;
+  RgbdFramePtr a, b;
+  OutgoingFrame outgoing;
 };
 
 /// Two robots and a station in one process, without ROS: the state machines and codecs that the
@@ -63,6 +64,7 @@ class PairRunner {
 
  private:
   struct Robots;
+  static Result<RebuiltFrame> send_reference(const OutgoingFrame& outgoing, Robots& robots);
   explicit PairRunner(std::unique_ptr<Robots> robots);
 
  public:

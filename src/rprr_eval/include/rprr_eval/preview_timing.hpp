@@ -7,7 +7,7 @@
 
 #include "rprr_eval/methods.hpp"
 #include "rprr_eval/profile.hpp"
-#include "rprr_pose/pose_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 
 namespace rprr {
 
@@ -47,7 +47,7 @@ struct WarmStart {
 
 /// Times the preview estimator by itself and the peers, `number` telling the pair's random
 /// directions apart. Frames need colour.
-PairTimes time_pair(const PoseFrame& a, const PoseFrame& b, const Profile& profile,
+PairTimes time_pair(const RgbdFrame& a, const RgbdFrame& b, const Profile& profile,
                     const NamedRegistrations& peers, const WarmStart& warm, std::uint32_t number);
 
 /// Median and 95th percentile.

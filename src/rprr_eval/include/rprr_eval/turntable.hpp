@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rprr_eval/metrics.hpp"
-#include "rprr_pose/pose_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_pose/registration.hpp"
 #include "rprr_synthetic/synthetic_scene.hpp"
 
@@ -34,7 +34,7 @@ Pose turntable_camera(double degrees);
 /// One table seen at the angles 0, step, .. last; noise is that of the sensor model.
 struct TurntableViews {
   std::vector<double> degrees;
-  std::vector<PoseFramePtr> frames;
+  std::vector<RgbdFramePtr> frames;
   std::vector<Pose> world_from_camera;
 };
 TurntableViews render_turntable(std::uint32_t seed, const TurntableOptions& options);

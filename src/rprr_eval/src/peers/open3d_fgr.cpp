@@ -22,7 +22,7 @@ constexpr int kStride = 2;
 constexpr std::size_t kFewestPoints = 50;
 constexpr double kFewestInliers = 0.3;  // share of a's voxels near one of b's: then converged
 
-std::shared_ptr<o3d::PointCloud> cloud_of(const PoseFrame& frame) {
+std::shared_ptr<o3d::PointCloud> cloud_of(const RgbdFrame& frame) {
   o3d::PointCloud cloud;
   for (int v = 0; v < frame.depth.height(); v += kStride) {
     for (int u = 0; u < frame.depth.width(); u += kStride) {
@@ -41,7 +41,7 @@ class Open3dFgr final : public Registration {
  public:
   std::string name() const override { return "open3d_fgr"; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
     result.motion = start;
     const auto cloud_a = cloud_of(a);

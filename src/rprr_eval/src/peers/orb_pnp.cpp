@@ -36,7 +36,7 @@ struct Matches {
   std::vector<cv::Point2d> at_b;
 };
 
-Matches match(const Features& a, const Features& b, const PoseFrame& frame_a) {
+Matches match(const Features& a, const Features& b, const RgbdFrame& frame_a) {
   std::vector<cv::DMatch> pairs;
   cv::BFMatcher(cv::NORM_HAMMING, true).match(a.descriptors, b.descriptors, pairs);
   Matches matches;
@@ -67,7 +67,7 @@ class OrbPnp final : public Registration {
  public:
   std::string name() const override { return "orb_pnp"; }
 
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
     result.motion = start;
     if (a.bgr.empty() || b.bgr.empty()) return result;

@@ -27,7 +27,7 @@ using PlainCloud = pcl::PointCloud<pcl::PointXYZ>;
 using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 
 template <typename Action>
-void for_each_point(const PoseFrame& frame, const Action& action) {
+void for_each_point(const RgbdFrame& frame, const Action& action) {
   for (int v = 0; v < frame.depth.height(); v += kStride) {
     for (int u = 0; u < frame.depth.width(); u += kStride) {
       const double z = frame.depth.metres(u, v);
@@ -36,7 +36,7 @@ void for_each_point(const PoseFrame& frame, const Action& action) {
   }
 }
 
-NormalCloud::Ptr cloud_with_normals(const PoseFrame& frame) {
+NormalCloud::Ptr cloud_with_normals(const RgbdFrame& frame) {
   auto cloud = NormalCloud::Ptr(new NormalCloud);
   for_each_point(frame, [&](int u, int v, const Eigen::Vector3f& point) {
     const auto normal = normal_at(frame.depth, frame.camera, u, v);
@@ -47,7 +47,7 @@ NormalCloud::Ptr cloud_with_normals(const PoseFrame& frame) {
   return cloud;
 }
 
-PlainCloud::Ptr plain_cloud(const PoseFrame& frame) {
+PlainCloud::Ptr plain_cloud(const RgbdFrame& frame) {
   auto cloud = PlainCloud::Ptr(new PlainCloud);
   for_each_point(frame, [&](int /*u*/, int /*v*/, const Eigen::Vector3f& point) {
     cloud->push_back({point.x(), point.y(), point.z()});
@@ -92,7 +92,7 @@ class CountingGicp : public pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ,
 class PclPointToPlane final : public Registration {
  public:
   std::string name() const override { return "pcl_plane"; }
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     CountingIcp icp;
     icp.setMaximumIterations(kMaxIterations);
     icp.setTransformationEpsilon(1e-8);
@@ -106,7 +106,7 @@ class PclPointToPlane final : public Registration {
 class PclGicp final : public Registration {
  public:
   std::string name() const override { return "pcl_gicp"; }
-  RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) override {
+  RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     CountingGicp gicp;
     RegistrationResult result =
         run<CountingGicp, PlainCloud>(gicp, plain_cloud(a), plain_cloud(b), start);

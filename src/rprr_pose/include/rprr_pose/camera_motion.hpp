@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/pose_frame.hpp"
 
 namespace rprr {
 
@@ -28,6 +28,6 @@ struct CameraMotion {
 
 /// Aligned coarse to fine at block resolution, from no motion and a few turns (tested up to 0.2 m
 /// and 18 degrees), without a search. Frames that are not of their camera's size tell nothing.
-CameraMotion camera_motion(const PoseFrame& earlier, const PoseFrame& later);
+CameraMotion camera_motion(const RgbdFrame& earlier, const RgbdFrame& later);
 
 }  // namespace rprr

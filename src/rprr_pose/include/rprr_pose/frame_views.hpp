@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "rprr_pose/pose_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_pose/preview_alignment.hpp"
 
 namespace rprr {
@@ -13,6 +13,6 @@ std::vector<PreviewView> pyramid(PreviewView view);
 
 /// The frame's own depth and luma, for a view of it to be refined by: all of a FixedView but its
 /// cells. Without colour of the frame's size luma is left to the cells.
-FixedView fine_view(const PoseFrame& frame);
+FixedView fine_view(const RgbdFrame& frame);
 
 }  // namespace rprr

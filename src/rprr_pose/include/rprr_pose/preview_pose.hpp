@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_pose/pose_evidence.hpp"
-#include "rprr_pose/pose_frame.hpp"
 #include "rprr_pose/pose_status.hpp"
 #include "rprr_pose/preview_agreement.hpp"
 #include "rprr_pose/preview_alignment.hpp"
@@ -53,7 +53,7 @@ class PreviewPoseEstimator {
   /// a: the reference's frame, with colour. warm: poses worth trying first (the last accepted one,
   /// tf, odometry); the full search runs only if none of them verifies, with evidence to spare and
   /// without a rival along the directions that depth leaves free.
-  PreviewPose estimate(const PoseFrame& a, const BlockPreview& b, const Camera& b_camera,
+  PreviewPose estimate(const RgbdFrame& a, const BlockPreview& b, const Camera& b_camera,
                        const std::vector<Pose>& warm);
 
  private:
@@ -68,7 +68,7 @@ class PreviewPoseEstimator {
     return left.score > right.score;
   }
 
-  void prepare(const PoseFrame& a);
+  void prepare(const RgbdFrame& a);
   void narrow(std::vector<Candidate>& candidates, std::size_t level, int stride,
               const AlignmentOptions& options, std::size_t keep, double metres,
               double degrees) const;

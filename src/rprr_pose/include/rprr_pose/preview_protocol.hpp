@@ -18,8 +18,6 @@ namespace rprr {
 /// Settings of the `preview` protocol: b sends one small message for each frame, a answers with the
 /// pose, or why there is none.
 struct PreviewOptions {
-  std::string self;             // this robot
-  std::string peer;             // the other robot
   double step = 0.003;          // dependent: of inverse depth in the preview, 1/metre
   bool lossless_depth = false;  // dependent: readings of the sensor, unchanged, instead of steps
   int colour_quality = 40;      // dependent: of the preview's colours, WebP's 0 to 100
@@ -36,11 +34,16 @@ struct PreviewOptions {
   std::uint32_t first_exchange = 1;  // dependent: number of the first exchange, not 0
 };
 
-/// Role of a: finds the pose from b's preview, decides what is sent. prior may be empty.
-std::unique_ptr<ExchangeRole> make_preview_reference(const PreviewOptions& options,
+/// Robot self as the reference of one peer: a Director (director.hpp) that answers the peer alone.
+/// prior may be empty.
+std::unique_ptr<ExchangeRole> make_preview_reference(const std::string& self,
+                                                     const std::string& peer,
+                                                     const PreviewOptions& options,
                                                      MotionPrior prior = {});
-/// Role of b: sends previews.
-std::unique_ptr<ExchangeRole> make_preview_dependent(const PreviewOptions& options);
+/// Robot self as the dependent of one peer: sends it previews of its own frames.
+std::unique_ptr<ExchangeRole> make_preview_dependent(const std::string& self,
+                                                     const std::string& peer,
+                                                     const PreviewOptions& options);
 
 /// Content of rprr_msgs/BlockPreview: u8 version 1, u8 flags (bit 0: camera present), u32 hash of
 /// the sender's camera, u32 hash of the receiver's camera that the sender knows (0: none), camera

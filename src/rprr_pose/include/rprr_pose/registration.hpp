@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/pose_frame.hpp"
 
 namespace rprr {
 
@@ -28,7 +28,7 @@ class Registration {
   virtual std::string name() const = 0;
   /// `start` is a first estimate of M_ab; methods that search on their own may ignore it. Frames
   /// must be of their cameras' sizes. Too little depth is no error, but no convergence.
-  virtual RegistrationResult align(const PoseFrame& a, const PoseFrame& b, const Pose& start) = 0;
+  virtual RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) = 0;
 };
 
 /// When an iterative method stops. The thresholds of Lui et al. are not public; these are ours.

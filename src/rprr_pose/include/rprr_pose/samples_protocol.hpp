@@ -15,8 +15,6 @@ namespace rprr {
 /// Settings of the `samples` protocol (the paper's cooperative estimation). Only the reference's
 /// settings shape the estimate; the dependent follows what it is asked.
 struct SamplesOptions {
-  std::string self;                     // this robot
-  std::string peer;                     // the other robot
   int sample_count = kSampleCount;      // points a robot sends
   int max_iterations = 50;              // paper
   double converged_translation = 1e-3;  // metres; ours, those of Lui et al. are not public
@@ -34,9 +32,14 @@ struct SamplesOptions {
   std::uint32_t first_exchange = 1;  // reference: number of the first exchange, not 0
 };
 
-/// Role of a: samples, asks, solves, verifies, publishes the pose.
-std::unique_ptr<ExchangeRole> make_samples_reference(const SamplesOptions& options);
-/// Role of b: answers with its points and its half of the normal equations.
-std::unique_ptr<ExchangeRole> make_samples_dependent(const SamplesOptions& options);
+/// Robot self as the reference of one peer: samples, asks, solves, verifies, tells the pose.
+std::unique_ptr<ExchangeRole> make_samples_reference(const std::string& self,
+                                                     const std::string& peer,
+                                                     const SamplesOptions& options);
+/// Robot self as the dependent of one peer: answers with its points and its half of the normal
+/// equations.
+std::unique_ptr<ExchangeRole> make_samples_dependent(const std::string& self,
+                                                     const std::string& peer,
+                                                     const SamplesOptions& options);
 
 }  // namespace rprr

@@ -32,6 +32,9 @@ struct SamplesContent {
 };
 
 Bytes encode_samples(const SamplesContent& content, int image_width, int image_height);
+/// Whether the samples say that a dependent sent them, which has normals. Untrusted: nothing else
+/// was looked at.
+bool are_of_dependent(ByteView bytes);
 /// Errors: anything malformed. Columns and rows are only known to fit their bits: check them
 /// against the camera.
 Result<SamplesContent> decode_samples(ByteView bytes);

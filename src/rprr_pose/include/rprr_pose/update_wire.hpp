@@ -32,6 +32,9 @@ struct PoseHalf {
 
 Bytes encode_request(const PoseRequest& request);
 Bytes encode_half(const PoseHalf& half);
+/// Whether the update says that it is a half, from a dependent. Untrusted: nothing else was looked
+/// at.
+bool is_of_dependent(ByteView bytes);
 /// The motion as the receiver will have it: the sender iterates with this one too.
 Pose rounded_for_wire(const Pose& pose);
 

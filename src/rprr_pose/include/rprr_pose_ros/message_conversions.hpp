@@ -2,7 +2,6 @@
 #pragma once
 
 #include <rprr_msgs/BlockPreview.h>
-#include <rprr_msgs/ExchangeEvent.h>
 #include <rprr_msgs/PoseUpdate.h>
 #include <rprr_msgs/RelativePose.h>
 #include <rprr_msgs/SamplePoints.h>
@@ -22,9 +21,5 @@ SamplesMessage from_ros(const rprr_msgs::SamplePoints& message);
 UpdateMessage from_ros(const rprr_msgs::PoseUpdate& message);
 PreviewMessage from_ros(const rprr_msgs::BlockPreview& message);
 RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message);
-
-/// What the other nodelets of this robot hear. ms is the processor time that the exchange took
-/// here.
-rprr_msgs::ExchangeEvent to_event(const FrameDecision& decision, double ms);
 
 }  // namespace rprr

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +44,7 @@ struct QueuedFrame {
   bool sparse = false;
   std::string reference;  // sparse: robot and stamp of the frame that the station needs for it
   Stamp reference_stamp = 0;
-  std::shared_ptr<const void> content;  // the caller's
+  std::uint64_t ticket = 0;  // the caller's name for what is to be encoded
 };
 
 /// What to encode next.
@@ -87,8 +86,8 @@ class SendQueue {
   /// Other figures for the same options.
   void set_rate(double bandwidth, double frame_rate);
 
-  /// Takes a frame up. Returns stamps of frames that gave way and will not be sent.
-  std::vector<Stamp> offer(QueuedFrame frame, Stamp now);
+  /// Takes a frame up. Returns the frames that gave way and will not be sent.
+  std::vector<QueuedFrame> offer(QueuedFrame frame, Stamp now);
   /// Bytes that this robot's other messages put on the radio.
   void spent(std::size_t bytes, Stamp now);
   /// The station's word on a robot's frames: whole ones held, ones to repeat, the last that came.

@@ -6,8 +6,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "rprr_radio_ros/host_watch.hpp"
 #include "rprr_radio_ros/peer_sockets.hpp"
@@ -15,18 +17,20 @@
 
 namespace rprr {
 
-/// Makes this process's subscriptions anew after a host was out of reach (HostWatch), so that what
-/// is published is heard again within a second or so of the radio's return. A thread of its own,
-/// which owns everything but what `state_mutex_` guards.
+/// Makes subscriptions to radio topics anew after a host was out of reach (HostWatch), so that what
+/// is published is heard again within a second or so of the radio's return. Only the topics that
+/// nodelets of RPRR name are renewed: whatever else the process subscribes to stays as it is. A
+/// thread of its own, which owns everything but what `state_mutex_` guards.
 ///
 /// Subscriptions are renewed through ROS's slave API, as the master would after a publisher came
 /// (publisherUpdate, http://wiki.ros.org/ROS/Slave_API): a process asks itself, and the host that
 /// publishes; the master is not asked.
 class RadioLinks {
  public:
-  /// The one of this process, for as long as somebody holds it. Before ros::start() it does
+  /// The one of this process, for as long as somebody holds it. From now on it also looks after
+  /// these topics (full names, as ros::Subscriber::getTopic has them). Before ros::start() it does
   /// nothing.
-  static std::shared_ptr<RadioLinks> of_this_process();
+  static std::shared_ptr<RadioLinks> look_after(const std::vector<std::string>& topics);
 
   ~RadioLinks();
   RadioLinks(const RadioLinks&) = delete;
@@ -49,8 +53,9 @@ class RadioLinks {
   void look();
 
   std::map<std::string, Host> hosts_;
-  mutable std::mutex state_mutex_;  // of the next three
+  mutable std::mutex state_mutex_;  // guards state_, topics_ and stop_
   State state_;
+  std::set<std::string> topics_;
   bool stop_ = false;
   std::condition_variable wake_;
   std::thread thread_;  // last: starts when everything else is ready
@@ -59,8 +64,8 @@ class RadioLinks {
 /// Shows on a nodelet's /diagnostics what the links are like.
 void show(const RadioLinks::State& state, Health& health);
 
-/// Drops this process's subscriptions to nodes on that host (numeric address) and makes them anew.
-/// Returns how many; connections within the process stay as they are.
-std::size_t renew_subscriptions(const std::string& host);
+/// Drops this process's subscriptions of these topics to nodes on that host (numeric address) and
+/// makes them anew. Returns how many; connections within the process stay as they are.
+std::size_t renew_subscriptions(const std::string& host, const std::set<std::string>& topics);
 
 }  // namespace rprr

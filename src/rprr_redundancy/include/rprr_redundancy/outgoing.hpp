@@ -44,6 +44,7 @@ struct OutgoingDecision {
 
 /// A prediction as it came over the radio. Everything in it is untrusted.
 struct PredictionMessage {
+  std::string sender;  // by the topic that it came on
   std::string receiver;
   std::uint32_t exchange = 0;
   Stamp stamp = 0;  // of the frame of b that the blocks belong to
@@ -51,7 +52,7 @@ struct PredictionMessage {
   std::size_t frame_id_length = 0;
 };
 
-/// Robot b decides, for one peer, what goes out: a pure state machine without a clock of its own.
+/// Robot b decides what goes out: a pure state machine without a clock of its own.
 /// Every frame that an event names leads to exactly one decision, whatever is lost, repeated,
 /// reordered or damaged on the way; memory is bounded. `now` is any steady time in nanoseconds.
 class Outgoing {
@@ -61,16 +62,20 @@ class Outgoing {
   /// The exchange says: send this frame whole.
   std::vector<OutgoingDecision> whole(Stamp stamp, std::uint32_t exchange, std::string reason);
 
-  /// The exchange found a pose; `validated` is B_v of the frame and lends its grid to the mask that
-  /// is to come. Computed while a still computes B_p.
-  std::vector<OutgoingDecision> accepted(Stamp stamp, std::uint32_t exchange, BlockMask validated,
-                                         Stamp now);
+  /// The exchange with `peer` found a pose; `validated` is B_v of the frame and lends its grid to
+  /// the mask that is to come from the peer.
+  std::vector<OutgoingDecision> accepted(Stamp stamp, const std::string& peer,
+                                         std::uint32_t exchange, BlockMask validated, Stamp now);
 
-  /// Ignored: predictions for others, repeated ones, ones for frames that are decided.
+  /// Ignored: predictions for others, repeated ones, ones for frames that are decided or that wait
+  /// for another peer's.
   std::vector<OutgoingDecision> prediction(const PredictionMessage& message, Stamp now);
 
   /// Frames whose prediction did not come in time go out whole.
   std::vector<OutgoingDecision> tick(Stamp now);
+
+  /// Somebody else decided about the frame: it neither waits nor is decided about any more.
+  void settle(Stamp stamp);
 
   /// Time went back: stamps name other frames from now on. What waits is forgotten.
   void restart();
@@ -83,12 +88,14 @@ class Outgoing {
  private:
   struct Waiting {
     Stamp stamp;
+    std::string peer;
     std::uint32_t exchange;
     BlockMask validated;
     Stamp deadline;
   };
   struct Early {
     Stamp stamp;
+    std::string sender;
     std::uint32_t exchange;
     Bytes mask;
     bool too_long;
@@ -96,6 +103,7 @@ class Outgoing {
     Stamp forget_at;
   };
 
+  void drop_waiting(Stamp stamp);
   OutgoingDecision decide(const Waiting& frame, const Early& prediction);
   OutgoingDecision give_up(const Waiting& frame, std::string reason);
 

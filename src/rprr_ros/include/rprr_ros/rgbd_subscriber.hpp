@@ -13,30 +13,16 @@
 #include <mutex>
 #include <string>
 
-#include "rprr_geometry/camera.hpp"
-#include "rprr_geometry/depth_frame.hpp"
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_ros/health.hpp"
 
 namespace rprr {
 
-/// One colour and one depth image of a camera, registered and of equal size. The pixels belong to
-/// the messages, which the frame keeps alive; nobody writes to them.
-struct RgbdFrame {
-  Stamp stamp = 0;          // of the colour image; names the frame
-  std_msgs::Header header;  // the same stamp; optical frame, cleaned
-  Camera camera;            // as it comes out of the wire (float32 intrinsics)
-  cv::Mat bgr;              // CV_8UC3
-  DepthFrame depth;
-  sensor_msgs::ImageConstPtr rgb_message;
-  sensor_msgs::ImageConstPtr depth_message;
-};
-using RgbdFramePtr = std::shared_ptr<const RgbdFrame>;
-
 /// Subscribes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
 /// .../depth_registered/image_rect, pairs colour and depth by stamp and checks them. What does not
 /// fit is dropped with a message and a diagnostic that name the topic and the remedy; depth without
-/// a single reading is reported and passed on. Private parameters: ~max_stamp_difference (s,
+/// a single reading is reported and passed on. A frame keeps the messages alive where it shares
+/// their pixels. Private parameters: ~max_stamp_difference (s,
 /// default 0.02), ~depth_unit (metres per count for 32FC1 depth, default 0.0002), ~image_transport
 /// (default raw).
 class RgbdSubscriber {

@@ -4,7 +4,8 @@
 #include <cstdlib>
 #include <deque>
 
-#include "rprr_pose/pose_frame.hpp"
+#include "rprr_geometry/rgbd_frame.hpp"
+#include "rprr_geometry/stamp.hpp"
 
 namespace rprr {
 
@@ -15,16 +16,16 @@ class RecentFrames {
       : capacity_(capacity), max_difference_(max_difference) {}
 
   /// A stamp before the newest one (time went back) empties the buffer first.
-  void add(const PoseFramePtr& frame) {
+  void add(const RgbdFramePtr& frame) {
     if (!frames_.empty() && frame->stamp < frames_.back()->stamp) frames_.clear();
     frames_.push_back(frame);
     if (frames_.size() > capacity_) frames_.pop_front();
   }
-  PoseFramePtr nearest(Stamp stamp) const { return nearest(stamp, max_difference_); }
-  PoseFramePtr nearest(Stamp stamp, Duration max_difference) const {
-    PoseFramePtr best;
+  RgbdFramePtr nearest(Stamp stamp) const { return nearest(stamp, max_difference_); }
+  RgbdFramePtr nearest(Stamp stamp, Duration max_difference) const {
+    RgbdFramePtr best;
     Stamp best_difference = max_difference;
-    for (const PoseFramePtr& frame : frames_) {
+    for (const RgbdFramePtr& frame : frames_) {
       const Stamp difference = std::abs(frame->stamp - stamp);
       if (difference > best_difference) continue;
       best_difference = difference;
@@ -33,12 +34,12 @@ class RecentFrames {
     return best;
   }
   /// Null if there is none.
-  PoseFramePtr newest() const { return frames_.empty() ? nullptr : frames_.back(); }
+  RgbdFramePtr newest() const { return frames_.empty() ? nullptr : frames_.back(); }
 
  private:
   const std::size_t capacity_;
   const Duration max_difference_;
-  std::deque<PoseFramePtr> frames_;
+  std::deque<RgbdFramePtr> frames_;
 };
 
 }  // namespace rprr

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rprr_pose/exchange.hpp"
+#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/preview_pose.hpp"
+#include "rprr_pose/preview_protocol.hpp"
+#include "rprr_pose/recent_frames.hpp"
+
+namespace rprr {
+
+/// Holds frames and answers previews: finds the pose of a dependent's frame to one that it holds,
+/// and says so, or why there is none. The reference's part of protocol `preview`, for any number of
+/// dependents. Nothing in it depends on where it runs: it answers to a name, and holds the frames
+/// that it is offered.
+///
+/// Memory is bounded: PreviewOptions::frames_kept frames, a few kilobytes for each dependent. One
+/// thread at a time.
+class Director final : public ExchangeRole {
+ public:
+  /// name: whom previews are addressed to. prior may be empty.
+  Director(std::string name, const PreviewOptions& options, MotionPrior prior = {});
+
+  /// Only previews of robots added here are answered.
+  void add_dependent(const std::string& robot) { dependents_[robot]; }
+
+  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override;
+  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+               RoleOutput& out) override;
+  void tick(Stamp now, RoleOutput& out) override;
+  void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override;
+
+ private:
+  /// What the director knows of one robot that asks it.
+  struct Dependent {
+    std::optional<Camera> camera;
+    std::optional<KnownMotion> last_accepted;
+    bool last_is_fresh = false;           // the last exchange was accepted
+    std::optional<PreviewMessage> early;  // a preview whose frame is not here yet
+    Stamp early_deadline = 0;
+    std::uint32_t last_answered = 0;
+  };
+  struct Question {
+    const std::string& peer;
+    Dependent& dependent;
+    const PreviewMessage& message;
+  };
+  struct Attempt {
+    RelativePoseMessage pose;
+    double shared = 0.0;  // of the dependent's view; 0 without a pose
+    std::string wrong;    // with the message
+    std::shared_ptr<const ReceivedPreview> preview;
+  };
+  struct Sent {
+    RgbdFramePtr frame;
+    Stamp at = 0;
+  };
+
+  Duration patience() const;
+  bool is_slow() const;
+  RgbdFramePtr choose(Stamp stamp) const;
+  RgbdFramePtr last_sent(Stamp now);
+  void answer(const Question& question, Stamp deadline, Stamp now, RoleOutput& out);
+  void answer_with(const Question& question, const RgbdFramePtr& first, const RgbdFramePtr& second,
+                   Stamp now, RoleOutput& out);
+  void refuse(const Question& question, const RgbdFrame& newest, RoleOutput& out);
+  Attempt try_frame(const Question& question, const RgbdFrame& frame,
+                    const Result<PreviewContent>& content,
+                    const std::shared_ptr<const ReceivedPreview>& preview);
+  std::string estimate(const Question& question, const RgbdFrame& frame,
+                       const PreviewContent& content, Attempt& attempt);
+  void remember(const Question& question, const RelativePoseMessage& pose);
+  std::vector<Pose> worth_trying(const Question& question, const FrameNames& frames) const;
+  void send_whole(const Question& question, const RgbdFramePtr& frame, Stamp now, RoleOutput& out);
+
+  const std::string name_;
+  const PreviewOptions options_;
+  const MotionPrior prior_;
+  RadioState radio_;
+  std::deque<Sent> sent_;  // oldest first
+  RecentFrames frames_;
+  PreviewPoseEstimator estimator_;
+  std::map<std::string, Dependent> dependents_;
+};
+
+}  // namespace rprr
