@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -69,10 +70,18 @@ class PreviewReference final : public ExchangeRole {
   void refuse(const PreviewMessage& message, const PoseFrame& newest, RoleOutput& out) {
     last_answered_ = message.exchange;
     RelativePoseMessage pose = pose_for(newest, message);
-    pose.status = PoseStatus::kNoFrame;
+    pose.verdict = no_frame_near(message.stamp);
     pose.bytes_spent =
         static_cast<std::uint32_t>(serialised_bytes(message) + serialised_bytes(pose));
     out.send.emplace_back(std::move(pose));
+  }
+
+  PoseVerdict no_frame_near(Stamp stamp) const {
+    const PoseFramePtr nearest = frames_.nearest(stamp, std::numeric_limits<Duration>::max());
+    if (!nearest) return {PoseStatus::kNoFrame};
+    return make_verdict(PoseStatus::kNoFrame, PoseQuantity::kTimeApart,
+                        std::abs(to_seconds(nearest->stamp - stamp)),
+                        to_seconds(options_.max_stamp_difference));
   }
 
   RelativePoseMessage pose_for(const PoseFrame& frame, const PreviewMessage& message) const {
@@ -134,7 +143,7 @@ class PreviewReference final : public ExchangeRole {
     pose.bytes_spent =
         static_cast<std::uint32_t>(serialised_bytes(message) + serialised_bytes(pose));
     out.send.emplace_back(pose);
-    if (pose.status != PoseStatus::kAccepted) return;
+    if (!pose.verdict.accepted()) return;
     FrameDecision sparse;
     sparse.action = FrameDecision::Action::kSendSparse;
     sparse.frame = frame;
@@ -157,7 +166,7 @@ class PreviewReference final : public ExchangeRole {
                     const Result<PreviewContent>& content) {
     Attempt attempt;
     attempt.pose = pose_for(frame, message);
-    attempt.pose.status = PoseStatus::kMalformed;
+    attempt.pose.verdict = {PoseStatus::kMalformed};
     attempt.wrong = content ? estimate(frame, message, *content, attempt) : content.reason();
     return attempt;
   }
@@ -180,7 +189,7 @@ class PreviewReference final : public ExchangeRole {
     const FrameNames frames{frame.stamp, frame.frame_id, message.stamp, message.frame_id};
     const PreviewPose found =
         estimator_.estimate(frame, *preview, *peer_camera_, worth_trying(frames));
-    pose.status = found.status;
+    pose.verdict = found.verdict;
     pose.motion = found.motion;
     pose.covariance = found.covariance;
     pose.iterations = found.searched ? static_cast<std::uint16_t>(1 + found.starts) : 1;
@@ -188,12 +197,12 @@ class PreviewReference final : public ExchangeRole {
     if (found.sums.geometry > 0) {
       pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
     }
-    if (found.status == PoseStatus::kAccepted) attempt.shared = found.b_in_a.shared();
+    if (found.verdict.accepted()) attempt.shared = found.b_in_a.shared();
     return {};
   }
 
   void remember(const RelativePoseMessage& pose, const PreviewMessage& message) {
-    last_is_fresh_ = pose.status == PoseStatus::kAccepted;
+    last_is_fresh_ = pose.verdict.accepted();
     if (!last_is_fresh_) return;
     const FrameNames frames{pose.stamp, pose.frame_id, message.stamp, message.frame_id};
     last_accepted_ = KnownMotion{frames, pose.motion};

@@ -210,11 +210,15 @@ void ExchangeNode::drive(const std::string& peer,
 }
 
 void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, double ms) {
-  for (const PoseMessage& message : output.send) publish(sides_[peer], message);
+  for (const PoseMessage& message : output.send) {
+    publish(sides_[peer], message);
+    if (const auto* pose = std::get_if<RelativePoseMessage>(&message)) show(peer, pose->verdict);
+  }
   for (const FrameDecision& decision : output.decisions) {
     const bool sparse = decision.action == FrameDecision::Action::kSendSparse;
     health_.count(sparse ? "poses accepted" : "frames sent whole");
     if (!sparse) health_.show("last reason for a whole frame", decision.reason);
+    if (decision.verdict) show(peer, *decision.verdict);
     event_.publish(to_event(decision, ms));
     observer_(decision, health_);
     if (sparse) report_motion(decision);
@@ -225,6 +229,14 @@ void ExchangeNode::publish(const std::string& peer, const RoleOutput& output, do
                      "; a message on a radio topic could not be used: check that all robots run "
                      "the same version and that nobody else publishes there");
   }
+}
+
+// The reference shows the verdict that it sends, the dependent the one that it was told.
+void ExchangeNode::show(const std::string& peer, const PoseVerdict& verdict) {
+  health_.show("last verdict with " + peer, describe(verdict));
+  if (verdict.accepted()) return;
+  health_.show("last rejection with " + peer, describe(verdict));
+  health_.count(std::string("poses rejected, ") + name_of(verdict.status));
 }
 
 // After all that came meanwhile, so that the newest frame is known. A camera that is slower than

@@ -60,6 +60,7 @@ class ExchangeNode {
              const std::function<void(ExchangeRole&, RoleOutput&)>& action);
   void publish(const std::string& peer, const RoleOutput& output, double ms);
   void report_motion(const FrameDecision& decision);
+  void show(const std::string& peer, const PoseVerdict& verdict);
   void publish(Side& side, const PoseMessage& message);
 
   ros::NodeHandle nh_;

@@ -194,6 +194,21 @@ class ExchangeNodes : public testing::Test {
     diagnostics.listener = nullptr;
     return found;
   }
+  /// Waits until the exchange of that robot shows this value on /diagnostics.
+  bool shows(const std::string& robot, const std::string& key, const std::string& value) {
+    bool found = false;
+    diagnostics.listener = [&](const diagnostic_msgs::DiagnosticArray& array) {
+      for (const auto& status : array.status) {
+        if (status.hardware_id != robot) continue;
+        if (status.name.find("exchange") == std::string::npos) continue;
+        for (const auto& pair : status.values)
+          found = found || (pair.key == key && pair.value == value);
+      }
+    };
+    wait([&] { return found; }, 10);
+    diagnostics.listener = nullptr;
+    return found;
+  }
 
   static inline int tests = 0;
   Pose truth = kTruth;

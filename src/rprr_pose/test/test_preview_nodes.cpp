@@ -12,6 +12,7 @@
 
 #include "preview_bench.hpp"
 #include "rprr_geometry/preview.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 
 namespace rprr {
 namespace {
@@ -60,6 +61,27 @@ TEST_F(PreviewNodes, OneMessageEachWayGivesTheTruePoseOnAllTopics) {
         << "bytes as they crossed the radio";
   }
   EXPECT_EQ(pose.bytes_spent, at_b.exchange_bytes);
+}
+
+std::string in_words(const RelativePose& pose) {
+  return describe({pose_status_from(pose.status), pose_quantity_from(pose.quantity), pose.measured,
+                   pose.needed});
+}
+
+TEST_F(PreviewNodes, BothRobotsShowTheVerdict) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  EXPECT_EQ(pose_of(stamp)->quantity, RelativePose::LOG_ODDS);
+  EXPECT_GE(pose_of(stamp)->measured, pose_of(stamp)->needed);
+  const std::string accepted = in_words(*pose_of(stamp));
+  EXPECT_TRUE(shows("eyebug_a", "last verdict with eyebug_b", accepted)) << accepted;
+  EXPECT_TRUE(shows("eyebug_b", "last verdict with eyebug_a", accepted)) << accepted;
+  ASSERT_TRUE(exchange_elsewhere()) << last_outcome();
+  const std::string rejected = in_words(*pose_of(stamp));
+  EXPECT_NE(rejected.find("needs"), std::string::npos) << rejected;
+  EXPECT_EQ(event_of(b_events, stamp)->reason, "pose rejected by eyebug_a: " + rejected);
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+  EXPECT_TRUE(shows("eyebug_a", "last rejection with eyebug_b", rejected)) << rejected;
+  EXPECT_TRUE(shows("eyebug_b", "last rejection with eyebug_a", rejected)) << rejected;
 }
 
 TEST_F(PreviewNodes, AcceptedPosesAreOnTf) {

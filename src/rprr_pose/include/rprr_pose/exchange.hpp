@@ -22,6 +22,9 @@ struct FrameDecision {
   std::string peer;            // empty: none
   std::string reason;          // why whole, for people
   RelativePoseMessage pose;    // with kSendSparse
+  /// This is the verdict that the dependent learnt from the reference. It is empty where none came,
+  /// and at the reference itself.
+  std::optional<PoseVerdict> verdict;
   std::optional<Camera> peer_camera;
   Bytes peer_preview;  // at the reference: b's preview as it came; empty if there is none
   std::uint32_t exchange_bytes = 0;  // pose messages of the exchange, both ways, serialised
