@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "rprr_eval/consistency.hpp"
+#include "rprr_eval/summary.hpp"
 #include "rprr_pose/preview_pose.hpp"
 #include "rprr_wire/preview.hpp"
 
@@ -118,6 +120,18 @@ BeliefModel fit_belief(const std::vector<BeliefSample>& samples) {
     model.constant -= slope * x.mean[k];
   }
   return model;
+}
+
+std::array<double, kEvidenceTerms> typical_terms(const std::vector<BeliefSample>& samples) {
+  std::array<double, kEvidenceTerms> typical{};
+  for (std::size_t i = 0; i < kEvidenceTerms; ++i) {
+    std::vector<double> values;
+    for (const BeliefSample& sample : samples) {
+      if (sample.right) values.push_back(terms_of(sample.evidence)[i]);
+    }
+    typical[i] = median(std::move(values));
+  }
+  return typical;
 }
 
 }  // namespace rprr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -46,15 +47,16 @@ void add_rows(TextTable& table, JsonOutput& json, const std::string& name, const
   }
 }
 
-void show(const BeliefModel& model, std::size_t samples) {
+void show(const BeliefModel& model, const std::vector<BeliefSample>& samples) {
   static constexpr const char* kNames[] = {"correlation", "fine correlation", "odd depths",
                                            "free space", "margin"};
-  TextTable table({"term", "slope"});
+  const std::array<double, kEvidenceTerms> typical = typical_terms(samples);
+  TextTable table({"term", "slope", "median of right poses"});
   for (std::size_t i = 0; i < kEvidenceTerms; ++i) {
-    table.add({kNames[i], fixed(model.slopes[i], 2)});
+    table.add({kNames[i], fixed(model.slopes[i], 2), fixed(typical[i], 3)});
   }
-  table.add({"constant", fixed(model.constant, 2)});
-  std::cerr << "fitted anew, from " << samples << " samples:\n" << table.text();
+  table.add({"constant", fixed(model.constant, 2), ""});
+  std::cerr << "fitted anew, from " << samples.size() << " samples:\n" << table.text();
 }
 
 int run(const BeliefArguments& arguments) {
@@ -70,7 +72,7 @@ int run(const BeliefArguments& arguments) {
   std::cerr << "and as many others\n";
   const std::vector<BeliefSample> others = belief_samples(held_out, *profile);
   const BeliefModel model = fit_belief(samples);
-  show(model, samples.size());
+  show(model, samples);
   TextTable table({"model", "log odds at least", "right accepted", "wrong accepted"});
   add_rows(
       table, json, "built in", [](const PoseEvidence& e) { return log_odds(e); }, others);

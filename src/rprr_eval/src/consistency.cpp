@@ -112,7 +112,7 @@ PoseTrial try_pair(const TruePair& pair, const Profile& profile) {
   const ExchangeOutcome outcome = harness.run(as_frame_of(*pair.a, "eyebug_a", kStamp),
                                               as_frame_of(*pair.b, "eyebug_b", kStamp));
   if (!outcome.pose) return trial;
-  trial.status = outcome.pose->status;
+  trial.verdict = outcome.pose->verdict;
   trial.error = pose_error(outcome.pose->motion, pair.truth);
   trial.perturbation = log_se3(outcome.pose->motion * pair.truth.inverse());
   trial.covariance = outcome.pose->covariance;

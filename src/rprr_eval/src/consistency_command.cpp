@@ -10,6 +10,7 @@
 #include "json_output.hpp"
 #include "rprr_eval/consistency.hpp"
 #include "rprr_eval/text_table.hpp"
+#include "verdict_json.hpp"
 
 namespace rprr {
 namespace {
@@ -40,7 +41,8 @@ nlohmann::json to_json(const PoseTrial& trial) {
                         {"true_deg", trial.true_degrees},
                         {"true_m", trial.true_metres},
                         {"accepted", trial.accepted()},
-                        {"reason", reason_of(trial.status)},
+                        {"reason", trial.accepted() ? "" : describe(trial.verdict)},
+                        {"verdict", to_json(trial.verdict)},
                         {"err_m", trial.error.metres},
                         {"err_deg", trial.error.degrees},
                         {"perturbation", to_json(trial.perturbation)}};

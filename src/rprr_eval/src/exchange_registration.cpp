@@ -12,6 +12,12 @@ namespace {
 const std::string kA = "eyebug_a";
 const std::string kB = "eyebug_b";
 
+// Where matched points were too few, or a test of the pose failed, the iteration came to its end.
+bool has_converged(const PoseVerdict& verdict) {
+  return verdict.status != PoseStatus::kTimedOut && verdict.status != PoseStatus::kNotConverged &&
+         verdict.status != PoseStatus::kMalformed && verdict.quantity != PoseQuantity::kValidPoints;
+}
+
 class ExchangeRegistration final : public Registration {
  public:
   ExchangeRegistration(std::string name, const Profile& profile)
@@ -33,11 +39,10 @@ class ExchangeRegistration final : public Registration {
     result.motion = start;
     result.bytes = outcome.bytes;
     if (!outcome.pose) return result;
-    const PoseStatus status = outcome.pose->status;
+    const PoseVerdict& verdict = outcome.pose->verdict;
     result.motion = outcome.pose->motion;
-    result.accepted = status == PoseStatus::kAccepted;
-    result.converged = status != PoseStatus::kTimedOut && status != PoseStatus::kTooFewPoints &&
-                       status != PoseStatus::kNotConverged && status != PoseStatus::kMalformed;
+    result.accepted = verdict.accepted();
+    result.converged = has_converged(verdict);
     result.iterations = outcome.pose->iterations;
     result.residual = static_cast<double>(outcome.pose->residual);
     return result;

@@ -17,8 +17,8 @@ void ExchangeSurveyor::add(const RgbdFrame& a, const RgbdFrame& b) {
   ++sums_.pairs;
   latency_.push_back(latency);
   compute_.push_back(1e3 * outcome.seconds_compute);
-  if (!outcome.pose || outcome.pose->status != PoseStatus::kAccepted) {
-    ++sums_.rejected[outcome.pose ? reason_of(outcome.pose->status) : "no answer"];
+  if (!outcome.pose || !outcome.pose->verdict.accepted()) {
+    ++sums_.rejected[outcome.pose ? cause_of(outcome.pose->verdict.status) : "no answer"];
     return;
   }
   ++sums_.accepted;

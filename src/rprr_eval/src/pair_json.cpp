@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "rprr_eval/pair_runner.hpp"
+#include "verdict_json.hpp"
 
 namespace rprr {
 namespace {
 
 nlohmann::json or_null(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+// Why the pair has no pose, in words; empty if it has one.
+std::string reason_of(const std::optional<RelativePoseMessage>& pose) {
+  if (!pose) return "no answer";
+  return pose->verdict.accepted() ? "" : describe(pose->verdict);
 }
 
 nlohmann::json pose_json(const PairResult& result) {
@@ -18,8 +27,9 @@ nlohmann::json pose_json(const PairResult& result) {
     metres = result.pose_error->metres;
     degrees = result.pose_error->degrees;
   }
-  return {{"accepted", pose && pose->status == PoseStatus::kAccepted},
-          {"reason", pose ? reason_of(pose->status) : "no answer"},
+  return {{"accepted", pose && pose->verdict.accepted()},
+          {"reason", reason_of(pose)},
+          {"verdict", to_json(pose ? pose->verdict : PoseVerdict())},
           {"iterations", pose ? pose->iterations : 0},
           {"err_m", or_null(metres)},
           {"err_deg", or_null(degrees)},

@@ -56,7 +56,7 @@ std::optional<Pose> time_preview(RgbdFrame a, const RgbdFrame& b, const Profile&
   a.stamp = 1;
   const PreviewPose first = estimate({});
   out.cold = timed([&] { estimate({}); });
-  out.accepted = first.status == PoseStatus::kAccepted;
+  out.accepted = first.verdict.accepted();
   const Pose start = near(first.motion, warm, number);
   const std::vector<Pose> starts(1, start);
   PreviewPose found;

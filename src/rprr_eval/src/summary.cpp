@@ -11,7 +11,7 @@ namespace {
 using Field = std::function<double(const PairResult&)>;
 
 bool accepted(const PairResult& r) {
-  return r.exchange.pose && r.exchange.pose->status == PoseStatus::kAccepted;
+  return r.exchange.pose && r.exchange.pose->verdict.accepted();
 }
 bool right(const PairResult& r) {
   return r.pose_error && is_right(*r.pose_error);

@@ -82,6 +82,9 @@ class RadioAttacker {
         break;
       case 2:
         message.status = byte();
+        message.quantity = byte();
+        message.measured = std::numeric_limits<float>::quiet_NaN();
+        message.needed = std::numeric_limits<float>::infinity();
         break;
       case 3:
         message.exchange += 1;

@@ -56,6 +56,17 @@ TEST(Belief, SamplesThatCanBeSeparatedDoNotSendTheSlopesOff) {
   EXPECT_EQ(fit_belief({}).constant, 0.0);
 }
 
+TEST(Belief, TypicalTermsAreMediansOfRightPosesAlone) {
+  std::vector<BeliefSample> samples(9);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].right = i < 5;
+    samples[i].evidence.margin = samples[i].right ? 0.02 * static_cast<double>(i) : 0.3;
+  }
+  samples[0].evidence.margin = 0.25;  // one is far off
+  EXPECT_DOUBLE_EQ(typical_terms(samples)[4], 0.06);
+  EXPECT_EQ(typical_terms({})[4], 0.0);
+}
+
 TEST(Belief, SearchesOfSmallScenesGiveSamplesOfBothKinds) {
   BeliefOptions options;
   options.scenes = 3;

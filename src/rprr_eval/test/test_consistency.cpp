@@ -31,7 +31,7 @@ std::vector<PoseTrial> drawn_trials(int count, double scale, const Twist& bias =
     Twist normal;
     for (int i = 0; i < 6; ++i) normal[i] = static_cast<double>(nearly_gaussian(random.bits()));
     PoseTrial trial;
-    trial.status = PoseStatus::kAccepted;
+    trial.verdict.status = PoseStatus::kAccepted;
     trial.perturbation = std::sqrt(scale) * (root * normal) + bias;
     trial.covariance = covariance;
     trials.push_back(trial);
@@ -72,7 +72,7 @@ TEST(Consistency, ABiasShowsOnItsAxis) {
 
 TEST(Consistency, OnlyAcceptedPosesCount) {
   std::vector<PoseTrial> trials = drawn_trials(10, 1.0);
-  trials[3].status = PoseStatus::kDegenerate;
+  trials[3].verdict.status = PoseStatus::kFreeDirection;
   trials[3].perturbation.setConstant(1.0);
   trials[3].error = {1.0, 90.0};
   trials[4].error = {0.5, 0.0};
@@ -133,7 +133,7 @@ TEST(ConsistencyPairs, AnExchangeIsHeldAgainstTheTruth) {
   const Result<Profile> profile = load_profile("default");
   ASSERT_TRUE(profile) << profile.reason();
   const PoseTrial trial = try_pair(pairs.front(), *profile);
-  EXPECT_TRUE(trial.accepted()) << reason_of(trial.status);
+  EXPECT_TRUE(trial.accepted()) << describe(trial.verdict);
   EXPECT_TRUE(is_right(trial.error)) << trial.error.metres << " m";
   EXPECT_GT(trial.overlap, 0.5);
   EXPECT_NEAR(trial.perturbation.tail<3>().norm() * 180.0 / M_PI, trial.error.degrees, 1e-6);

@@ -35,7 +35,7 @@ TEST(ExchangeHarness, NeighboursOfAWalkAgreeOnTheTruePose) {
   ExchangeHarness harness = samples_harness();
   const ExchangeOutcome outcome = harness.run(frame_of(a, 1000, "a"), frame_of(b, 1000, "b"));
   ASSERT_TRUE(outcome.pose);
-  EXPECT_EQ(outcome.pose->status, PoseStatus::kAccepted) << reason_of(outcome.pose->status);
+  EXPECT_TRUE(outcome.pose->verdict.accepted()) << describe(outcome.pose->verdict);
   const PoseError error =
       pose_error(outcome.pose->motion, relative_motion(a.world_from_camera, b.world_from_camera));
   EXPECT_LT(error.metres, 0.04);
@@ -66,7 +66,7 @@ TEST(ExchangeHarness, RobotsKeepWhatTheyKnowBetweenExchanges) {
   const ExchangeOutcome first = harness.run(frame_of(a, 1000, "a"), frame_of(b, 1000, "b"));
   const ExchangeOutcome second = harness.run(frame_of(a, 2000, "a"), frame_of(b, 2000, "b"));
   ASSERT_TRUE(first.pose && second.pose);
-  EXPECT_EQ(second.pose->status, PoseStatus::kAccepted);
+  EXPECT_TRUE(second.pose->verdict.accepted()) << describe(second.pose->verdict);
   EXPECT_EQ(second.pose->exchange, first.pose->exchange + 1);
   EXPECT_LT(second.bytes / static_cast<std::size_t>(second.messages),
             first.bytes / static_cast<std::size_t>(first.messages))
@@ -90,7 +90,7 @@ TEST(ExchangeHarness, ViewsThatShareNothingSendBWhole) {
   const ExchangeOutcome outcome =
       harness.run(frame_of(walk_frame(0), 1000, "a"), frame_of(walk_frame(50), 1000, "b"));
   ASSERT_TRUE(outcome.pose);
-  EXPECT_NE(outcome.pose->status, PoseStatus::kAccepted);
+  EXPECT_FALSE(outcome.pose->verdict.accepted());
   for (const FrameDecision& decision : outcome.at_reference) {
     EXPECT_EQ(decision.action, FrameDecision::Action::kSendReference);
   }

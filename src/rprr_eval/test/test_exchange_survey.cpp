@@ -49,7 +49,7 @@ TEST(ExchangeSurvey, SaysWhyPairsWereRejected) {
   const ExchangeSurvey survey = survey_at(room_views(0.05, 3.0), strict, 0.005, 1);
   EXPECT_EQ(survey.accepted, 0);
   ASSERT_EQ(survey.rejected.size(), 1u);
-  EXPECT_EQ(survey.rejected.begin()->first, reason_of(PoseStatus::kDegenerate));
+  EXPECT_EQ(survey.rejected.begin()->first, cause_of(PoseStatus::kFreeDirection));
   EXPECT_EQ(survey.mean_iterations, 0.0);
 }
 

@@ -273,9 +273,12 @@ class Exchange {
   }
   static void spoil_pose(RelativePoseMessage& pose, Mutator& mutator) {
     pose.reference_camera = mutator.mutate(pose.reference_camera);
-    pose.status = static_cast<PoseStatus>(mutator.below(9));
     const double numbers[] = {std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity(), 1e300, -5.0, 0.0};
+    pose.verdict = {static_cast<PoseStatus>(mutator.below(14)),
+                    static_cast<PoseQuantity>(mutator.below(256)),
+                    mutator.once_in(2) ? std::nanf("") : -1e30f,
+                    mutator.once_in(2) ? std::numeric_limits<float>::infinity() : 0.0f};
     if (mutator.once_in(2)) {
       pose.motion.matrix()(static_cast<int>(mutator.below(3)), static_cast<int>(mutator.below(4))) =
           numbers[mutator.below(5)];

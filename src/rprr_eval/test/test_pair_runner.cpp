@@ -97,6 +97,9 @@ TEST_F(PairRunnerTest, NeighboursAreAcceptedAndRightAndSaveBytes) {
     ASSERT_TRUE(result) << result.reason();
     const json pair = to_json(*result);
     EXPECT_TRUE(pair["pose"]["accepted"].get<bool>()) << pair["pose"];
+    EXPECT_EQ(pair["pose"]["reason"], "");
+    EXPECT_EQ(pair["pose"]["verdict"]["status"], "accepted");
+    EXPECT_NE(pair["pose"]["verdict"]["quantity"], "none") << "by how much it was accepted";
     EXPECT_LT(pair["pose"]["err_m"].get<double>(), 0.05);
     EXPECT_LT(pair["pose"]["err_deg"].get<double>(), 2.0);
     EXPECT_GT(pair["overlap"].get<double>(), 0.6);
@@ -122,7 +125,12 @@ TEST_F(PairRunnerTest, ARejectedPairIsSentWhole) {
   ASSERT_TRUE(result) << result.reason();
   const json pair = to_json(*result);
   EXPECT_FALSE(pair["pose"]["accepted"].get<bool>());
-  EXPECT_FALSE(pair["pose"]["reason"].get<std::string>().empty());
+  const std::string reason = pair["pose"]["reason"];
+  EXPECT_NE(reason.find("needs"), std::string::npos) << reason;
+  const json verdict = pair["pose"]["verdict"];
+  EXPECT_NE(verdict["status"], "accepted");
+  EXPECT_NE(verdict["quantity"], "none") << verdict;
+  EXPECT_NE(verdict["measured"].get<double>(), verdict["needed"].get<double>()) << verdict;
   EXPECT_EQ(pair["blocks"]["sent"], pair["blocks"]["total"]);
   EXPECT_EQ(pair["bytes"]["depth"], pair["independent_bytes"]["depth"]);
   EXPECT_EQ(pair["bytes"]["colour"], pair["independent_bytes"]["colour"]);
@@ -198,6 +206,9 @@ TEST_F(PairRunnerTest, TheKitchensFirstPairsAreRight) {
     ASSERT_TRUE(result) << result.reason();
     const json pair = to_json(*result);
     EXPECT_TRUE(pair["pose"]["accepted"].get<bool>()) << pair["pose"];
+    EXPECT_EQ(pair["pose"]["reason"], "");
+    EXPECT_EQ(pair["pose"]["verdict"]["status"], "accepted");
+    EXPECT_NE(pair["pose"]["verdict"]["quantity"], "none") << "by how much it was accepted";
     EXPECT_LT(pair["pose"]["err_m"].get<double>(), 0.08);
     EXPECT_LT(pair["pose"]["err_deg"].get<double>(), 3.0);
     EXPECT_LT(pair["bytes"]["total"].get<double>(),

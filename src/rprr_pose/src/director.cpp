@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "rprr_wire/camera_wire.hpp"
@@ -138,9 +139,17 @@ void Director::answer(const Question& question, Stamp deadline, Stamp now, RoleO
 void Director::refuse(const Question& question, const RgbdFrame& newest, RoleOutput& out) {
   question.dependent.last_answered = question.message.exchange;
   RelativePoseMessage pose = pose_for(newest, question.peer, question.message);
-  pose.status = PoseStatus::kNoFrame;
+  pose.verdict = no_frame_near(question.message.stamp);
   pose.bytes_spent = bytes_of(question.message, pose);
   out.send.emplace_back(std::move(pose));
+}
+
+PoseVerdict Director::no_frame_near(Stamp stamp) const {
+  const RgbdFramePtr nearest = frames_.nearest(stamp, std::numeric_limits<Duration>::max());
+  if (!nearest) return {PoseStatus::kNoFrame};
+  return make_verdict(PoseStatus::kNoFrame, PoseQuantity::kTimeApart,
+                      std::abs(to_seconds(nearest->stamp - stamp)),
+                      to_seconds(options_.max_stamp_difference));
 }
 
 // With the pose to `first`, or where that does not show enough of the dependent's view, to
@@ -171,7 +180,7 @@ void Director::answer_with(const Question& question, const RgbdFramePtr& first,
   }
   pose.bytes_spent = bytes_of(question.message, pose);
   out.send.emplace_back(pose);
-  if (pose.status == PoseStatus::kAccepted) {
+  if (pose.verdict.accepted()) {
     FrameDecision predict;
     predict.action = FrameDecision::Action::kPredict;
     predict.frame = frame;
@@ -191,7 +200,7 @@ Director::Attempt Director::try_frame(const Question& question, const RgbdFrame&
                                       const std::shared_ptr<const ReceivedPreview>& preview) {
   Attempt attempt;
   attempt.pose = pose_for(frame, question.peer, question.message);
-  attempt.pose.status = PoseStatus::kMalformed;
+  attempt.pose.verdict = {PoseStatus::kMalformed};
   attempt.preview = preview;
   if (content) attempt.wrong = estimate(question, frame, *content, attempt);
   return attempt;
@@ -216,7 +225,7 @@ std::string Director::estimate(const Question& question, const RgbdFrame& frame,
   const PreviewPose found =
       estimator_.estimate(frame, preview, *camera, worth_trying(question, frames));
   RelativePoseMessage& pose = attempt.pose;
-  pose.status = found.status;
+  pose.verdict = found.verdict;
   pose.motion = found.motion;
   pose.covariance = found.covariance;
   pose.iterations = found.searched ? static_cast<std::uint16_t>(1 + found.starts) : 1;
@@ -224,13 +233,13 @@ std::string Director::estimate(const Question& question, const RgbdFrame& frame,
   if (found.sums.geometry > 0) {
     pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
   }
-  if (found.status == PoseStatus::kAccepted) attempt.shared = found.b_in_a.shared();
+  if (found.verdict.accepted()) attempt.shared = found.b_in_a.shared();
   return {};
 }
 
 void Director::remember(const Question& question, const RelativePoseMessage& pose) {
   Dependent& dependent = question.dependent;
-  dependent.last_is_fresh = pose.status == PoseStatus::kAccepted;
+  dependent.last_is_fresh = pose.verdict.accepted();
   if (!dependent.last_is_fresh) return;
   const FrameNames frames{pose.stamp, pose.frame_id, question.message.stamp,
                           question.message.frame_id};

@@ -14,7 +14,9 @@ std::size_t serialised_bytes(const UpdateMessage& message) {
 }
 
 std::size_t serialised_bytes(const RelativePoseMessage& message) {
-  constexpr std::size_t kNumbers = 8 + 4 + 1 + 3 * 8 + 4 * 8 + 21 * 4 + 2 + 2 + 4 + 8 + 4 + 4 + 4;
+  constexpr std::size_t kVerdict = 1 + 1 + 4 + 4;
+  constexpr std::size_t kNumbers =
+      8 + 4 + kVerdict + 3 * 8 + 4 * 8 + 21 * 4 + 2 + 2 + 4 + 8 + 4 + 4 + 4;
   return ros_header_bytes(message.frame_id.size()) + ros_array_bytes(message.dependent.size()) +
          ros_array_bytes(message.reference_camera.size()) + kNumbers;
 }

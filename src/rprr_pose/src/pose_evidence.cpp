@@ -10,6 +10,11 @@ namespace {
 // From rprr_eval belief --scenes 150: for the terms in their order, then the constant.
 constexpr std::array<double, kEvidenceTerms> kSlopes = {2.28, 9.55, -10.54, -37.23, 11.37};
 constexpr double kConstant = -7.41;
+// The same command printed these medians of the terms of right poses.
+constexpr std::array<double, kEvidenceTerms> kTypical = {1.5, 0.55, 0.03, 0.005, 0.3};
+constexpr std::array<PoseStatus, kEvidenceTerms> kCauses = {
+    PoseStatus::kColourDisagrees, PoseStatus::kColourDisagrees, PoseStatus::kDepthDisagrees,
+    PoseStatus::kFreeSpaceViolated, PoseStatus::kAmbiguous};
 
 double odd_share(const Agreement& way) {
   return 1.0 - way.of_shared(way.consistent + way.violating + way.hidden);
@@ -39,6 +44,16 @@ double log_odds(const PoseEvidence& evidence) {
   double sum = kConstant;
   for (std::size_t i = 0; i < kEvidenceTerms; ++i) sum += kSlopes[i] * terms[i];
   return sum;
+}
+
+PoseStatus weakest_evidence(const PoseEvidence& evidence) {
+  const std::array<double, kEvidenceTerms> terms = terms_of(evidence);
+  std::array<double, kEvidenceTerms> losses{};
+  for (std::size_t i = 0; i < kEvidenceTerms; ++i) {
+    losses[i] = kSlopes[i] * (kTypical[i] - terms[i]);
+  }
+  return kCauses[static_cast<std::size_t>(std::max_element(losses.begin(), losses.end()) -
+                                          losses.begin())];
 }
 
 }  // namespace rprr

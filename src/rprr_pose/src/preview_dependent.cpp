@@ -53,10 +53,11 @@ class PreviewDependent final : public ExchangeRole {
     }
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(*pose));
     learn_camera(*pose, out);
-    if (pose->status != PoseStatus::kAccepted) {
+    if (!pose->verdict.accepted()) {
       // A reference that could not read the preview may have forgotten this camera.
-      if (pose->status == PoseStatus::kMalformed) camera_sent_ = 0;
-      return send_whole("pose rejected by " + peer_ + ": " + reason_of(pose->status), out);
+      if (pose->verdict.status == PoseStatus::kMalformed) camera_sent_ = 0;
+      return send_whole("pose rejected by " + peer_ + ": " + describe(pose->verdict), out,
+                        pose->verdict);
     }
     if (!is_rigid(pose->motion) || !pose->covariance.allFinite() || !peer_camera_) {
       out.problems.push_back(peer_ + ": accepted pose that is not a pose, or no camera");
@@ -69,6 +70,7 @@ class PreviewDependent final : public ExchangeRole {
     sparse.exchange = exchange_->number;
     sparse.peer = peer_;
     sparse.pose = *pose;
+    sparse.verdict = pose->verdict;
     sparse.peer_camera = peer_camera_;
     sparse.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(std::move(sparse));
@@ -120,12 +122,14 @@ class PreviewDependent final : public ExchangeRole {
     }
   }
 
-  void send_whole(const std::string& reason, RoleOutput& out) {
+  void send_whole(const std::string& reason, RoleOutput& out,
+                  const std::optional<PoseVerdict>& verdict = std::nullopt) {
     FrameDecision whole;
     whole.frame = exchange_->frame;
     whole.exchange = exchange_->number;
     whole.peer = peer_;
     whole.reason = reason;
+    whole.verdict = verdict;
     whole.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(std::move(whole));
     exchange_.reset();

@@ -3,8 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "pose_check.hpp"
 #include "rprr_pose/frame_views.hpp"
 
 namespace rprr {
@@ -19,10 +21,28 @@ constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step compar
 constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
+constexpr int kFewestCells = 40;  // cells with depth, since align() gives up below 40 residuals
 
 bool differ(const Pose& left, const Pose& right, double metres, double degrees) {
   return (left.translation() - right.translation()).norm() > metres ||
          rotation_angle(left.linear() * right.linear().transpose()) > degrees * kDegree;
+}
+
+// A pose has to pass these tests. They stand in the order in which they are made.
+constexpr std::size_t kLogOddsCheck = 2;
+std::array<PoseCheck, 6> checks_of(const PreviewPose& pose, const PreviewLimits& limits) {
+  return {
+      {{PoseStatus::kLittleOverlap, PoseQuantity::kOverlap,
+        std::min(pose.b_in_a.shared(), pose.a_in_b.shared()), limits.min_overlap},
+       {PoseStatus::kFreeSpaceViolated, PoseQuantity::kFreeSpace, pose.evidence.violating,
+        limits.max_violating},
+       {weakest_evidence(pose.evidence), PoseQuantity::kLogOdds, pose.log_odds,
+        limits.min_evidence},
+       {PoseStatus::kFreeDirection, PoseQuantity::kTranslationSigma,
+        worst_sigma(pose.covariance.topLeftCorner<3, 3>()), limits.max_sigma_translation},
+       {PoseStatus::kFreeDirection, PoseQuantity::kRotationSigma,
+        worst_sigma(pose.covariance.bottomRightCorner<3, 3>()), limits.max_sigma_rotation},
+       {PoseStatus::kAmbiguous, PoseQuantity::kMargin, pose.evidence.margin, limits.min_margin}}};
 }
 
 }  // namespace
@@ -106,7 +126,10 @@ void PreviewPoseEstimator::slide(const CoarseMatch& match,
   }
 }
 
-std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() const {
+// Finds the distinct poses that align and puts the best one first. The search began with
+// best_start, which stays as it is if there was nothing to begin with.
+std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search(
+    Candidate& best_start) const {
   const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
   const std::size_t middle = coarsest - 1;
   const CoarseMatch match(b_[coarsest], a_[coarsest]);
@@ -115,6 +138,7 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search() cons
     candidates.emplace_back();
     candidates.back().motion = start;
   }
+  if (!candidates.empty()) best_start = candidates.front();
   narrow(candidates, middle, 3, {6, 0.6f, 0.25f}, 40, 0.04, 1.5);
   narrow(candidates, middle, 2, {5, 0.5f, 0.2f}, 14, 0.05, 2.0);
   slide(match, candidates);
@@ -144,22 +168,22 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   const Matrix6 a = adjoint(out.motion);
   out.covariance = a * covariance_of(best.sums) * a.transpose();
 
-  const PreviewLimits& limits = options_.limits;
-  const double overlap = std::min(best.b_in_a.shared(), best.a_in_b.shared());
-  if (overlap < limits.min_overlap) {
-    out.status = PoseStatus::kLittleOverlap;
-  } else if (out.evidence.violating > limits.max_violating) {
-    out.status = PoseStatus::kFreeSpaceViolated;
-  } else if (out.log_odds < limits.min_evidence) {
-    out.status = PoseStatus::kInconsistent;
-  } else if (worst_sigma(out.covariance.topLeftCorner<3, 3>()) > limits.max_sigma_translation ||
-             worst_sigma(out.covariance.bottomRightCorner<3, 3>()) > limits.max_sigma_rotation ||
-             out.evidence.margin < limits.min_margin) {
-    out.status = PoseStatus::kDegenerate;
-  } else {
-    out.status = PoseStatus::kAccepted;
-  }
+  const auto checks = checks_of(out, options_.limits);
+  const PoseCheck* failed = first_failed(checks);
+  out.verdict = failed ? failed->rejected() : checks[kLogOddsCheck].accepted();
   return out;
+}
+
+// Tells why the search was left without a pose, from what the most promising start looks like.
+PoseVerdict PreviewPoseEstimator::why_nothing(Candidate start) const {
+  const int cells = std::min(a_[0].valid_count(), b_[0].valid_count());
+  if (cells < kFewestCells) {
+    return make_verdict(PoseStatus::kTooFewPoints, PoseQuantity::kValidPoints, cells, kFewestCells);
+  }
+  judge(start);
+  start.score = 0.0;  // the start did not align, so that it stands out from nothing
+  const PoseVerdict verdict = finish(start, 0.0).verdict;
+  return verdict.accepted() ? PoseVerdict{PoseStatus::kNotConverged} : verdict;
 }
 
 // A warm start was held against no other pose: where depth leaves it free to slide, the nearest
@@ -189,14 +213,19 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
     candidate.motion = m_ab.inverse();
     if (!refine(candidate)) continue;
     judge(candidate);
-    const PreviewPose pose = finish(candidate, 0.0);
+    PreviewPose pose = finish(candidate, 0.0);
     const double needed = options_.limits.min_evidence + options_.limits.warm_evidence;
-    if (pose.status == PoseStatus::kAccepted && pose.log_odds >= needed && stands_alone(candidate))
-      return pose;
+    const bool is_believed = pose.verdict.accepted() && pose.log_odds >= needed;
+    if (!is_believed || !stands_alone(candidate)) continue;
+    pose.verdict.needed = static_cast<float>(needed);
+    return pose;
   }
-  const std::vector<Candidate> found = search();
+  Candidate best_start;
+  best_start.motion = Pose::Identity();
+  const std::vector<Candidate> found = search(best_start);
   if (found.empty()) {
     PreviewPose none;
+    none.verdict = why_nothing(best_start);
     none.searched = true;
     return none;
   }

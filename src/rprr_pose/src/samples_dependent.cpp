@@ -157,8 +157,8 @@ class SamplesDependent final : public ExchangeRole {
   void on_pose(const RelativePoseMessage& pose, Stamp now, RoleOutput& out) {
     if (!exchange_ || pose.exchange != exchange_->number) return;
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(pose));
-    if (pose.status != PoseStatus::kAccepted) {
-      return send_whole("pose rejected: " + std::string(reason_of(pose.status)), now, out);
+    if (!pose.verdict.accepted()) {
+      return send_whole("pose rejected: " + describe(pose.verdict), now, out, pose.verdict);
     }
     if (!is_rigid(pose.motion) || !pose.covariance.allFinite() || !exchange_->a_camera) {
       out.problems.push_back(peer_ + ": accepted pose that is not a pose");
@@ -170,6 +170,7 @@ class SamplesDependent final : public ExchangeRole {
     sparse.exchange = exchange_->number;
     sparse.peer = peer_;
     sparse.pose = pose;
+    sparse.verdict = pose.verdict;
     sparse.exchange_bytes = exchange_->bytes;
     sparse.peer_camera = exchange_->a_camera;
     out.decisions.push_back(sparse);
@@ -195,12 +196,14 @@ class SamplesDependent final : public ExchangeRole {
     out.send.push_back(std::move(message));
   }
 
-  void send_whole(const std::string& reason, Stamp now, RoleOutput& out) {
+  void send_whole(const std::string& reason, Stamp now, RoleOutput& out,
+                  const std::optional<PoseVerdict>& verdict = std::nullopt) {
     FrameDecision whole;
     whole.frame = exchange_->frame;
     whole.exchange = exchange_->number;
     whole.peer = peer_;
     whole.reason = reason;
+    whole.verdict = verdict;
     whole.exchange_bytes = exchange_->bytes;
     out.decisions.push_back(whole);
     close(now);

@@ -32,6 +32,23 @@ struct Exchange {
   std::size_t bytes = 0;
 };
 
+PoseVerdict too_few(std::size_t points) {
+  return make_verdict(PoseStatus::kTooFewPoints, PoseQuantity::kValidPoints,
+                      static_cast<double>(points), static_cast<double>(kFewestPoints));
+}
+
+// Translation or rotation of the last step decides, whichever is further from its limit.
+PoseVerdict not_converged(const Twist& step, const SamplesOptions& options) {
+  const double metres = step.head<3>().norm();
+  const double radians = step.tail<3>().norm();
+  if (radians * options.converged_translation > metres * options.converged_rotation) {
+    return make_verdict(PoseStatus::kNotConverged, PoseQuantity::kRotationStep, radians,
+                        options.converged_rotation);
+  }
+  return make_verdict(PoseStatus::kNotConverged, PoseQuantity::kTranslationStep, metres,
+                      options.converged_translation);
+}
+
 class SamplesReference final : public ExchangeRole {
  public:
   SamplesReference(std::string self, std::string peer, const SamplesOptions& options)
@@ -58,7 +75,11 @@ class SamplesReference final : public ExchangeRole {
   void set_active(bool active) override { active_ = active; }
 
   void tick(Stamp now, RoleOutput& out) override {
-    if (exchange_ && now >= exchange_->deadline) finish(PoseStatus::kTimedOut, out);
+    if (!exchange_ || now < exchange_->deadline) return;
+    const Duration silence = now - exchange_->deadline + options_.step_timeout;
+    finish(make_verdict(PoseStatus::kTimedOut, PoseQuantity::kSilence, to_seconds(silence),
+                        to_seconds(options_.step_timeout)),
+           out);
   }
 
  private:
@@ -77,10 +98,10 @@ class SamplesReference final : public ExchangeRole {
     whole.action = FrameDecision::Action::kSendReference;
     whole.reason = "reference";
     out.decisions.push_back(whole);
-    if (!send_samples(out)) return finish(PoseStatus::kTooFewPoints, out);
-    if (!options_.local_start) send_request(out);
+    if (send_samples(out) && !options_.local_start) send_request(out);
   }
 
+  // Returns false if there are too few points; the exchange has then ended.
   bool send_samples(RoleOutput& out) {
     const RgbdFrame& frame = *exchange_->frame;
     SamplesContent content;
@@ -89,7 +110,10 @@ class SamplesReference final : public ExchangeRole {
     content.unit = frame.depth.unit;
     content.points = sample_points(frame.depth, frame.camera, options_.sample_count,
                                    exchange_->number * 64 + exchange_->iteration);
-    if (content.points.size() < kFewestPoints) return false;
+    if (content.points.size() < kFewestPoints) {
+      finish(too_few(content.points.size()), out);
+      return false;
+    }
     send(SamplesMessage{frame.stamp, frame.frame_id, peer_, exchange_->number,
                         encode_samples(content, frame.camera.width, frame.camera.height)},
          out);
@@ -124,7 +148,9 @@ class SamplesReference final : public ExchangeRole {
     }
     std::optional<SampledSurface> surface = surface_of(*content, *camera);
     if (!surface) return refuse("samples outside of their image", out);
-    if (surface->points.size() < kFewestPoints) return finish(PoseStatus::kTooFewPoints, out);
+    if (surface->points.size() < kFewestPoints) {
+      return finish(too_few(surface->points.size()), out);
+    }
     exchange_->b_points = std::move(surface);
     exchange_->b_camera = camera;
     exchange_->b_stamp = message.stamp;
@@ -159,10 +185,10 @@ class SamplesReference final : public ExchangeRole {
     NormalEquations both = exchange.last_b;
     both += exchange.last_a;
     ++exchange.iteration;
-    Twist step;
+    Twist step = Twist::Zero();
     if (!solve(both, step)) {
-      const bool unseen = both.matched < static_cast<std::uint32_t>(options_.limits.min_matched);
-      return finish(unseen ? PoseStatus::kLittleOverlap : PoseStatus::kDegenerate, out);
+      const std::optional<PoseVerdict> why = why_unsolved(both, options_.limits);
+      return finish(why ? *why : not_converged(step, options_), out);
     }
     exchange.motion = exp_se3(step) * exchange.motion;
     exchange.c = both.sum_abs_dz / both.matched;
@@ -171,7 +197,7 @@ class SamplesReference final : public ExchangeRole {
       return finish(verify(exchange.last_b, exchange.last_a, options_.limits), out);
     }
     if (exchange.iteration >= options_.max_iterations) {
-      return finish(PoseStatus::kNotConverged, out);
+      return finish(not_converged(step, options_), out);
     }
     ask_again(now, out);
   }
@@ -181,17 +207,17 @@ class SamplesReference final : public ExchangeRole {
     exchange_->b_half.reset();
     if (options_.resample) {
       exchange_->b_points.reset();
-      if (!send_samples(out)) return finish(PoseStatus::kTooFewPoints, out);
+      if (!send_samples(out)) return;
     }
     send_request(out);
   }
 
   void refuse(const std::string& why, RoleOutput& out) {
     out.problems.push_back(peer_ + ": " + why);
-    finish(PoseStatus::kMalformed, out);
+    finish({PoseStatus::kMalformed}, out);
   }
 
-  void finish(PoseStatus status, RoleOutput& out) {
+  void finish(const PoseVerdict& verdict, RoleOutput& out) {
     const Exchange exchange = std::move(*exchange_);
     exchange_.reset();
     NormalEquations both = exchange.last_b;
@@ -202,7 +228,7 @@ class SamplesReference final : public ExchangeRole {
     pose.dependent_stamp = exchange.b_stamp;
     pose.dependent = peer_;
     pose.exchange = exchange.number;
-    pose.status = status;
+    pose.verdict = verdict;
     pose.motion = exchange.motion;
     pose.covariance = covariance_of(both);
     pose.iterations = exchange.iteration;
@@ -212,7 +238,7 @@ class SamplesReference final : public ExchangeRole {
     }
     pose.bytes_spent = static_cast<std::uint32_t>(exchange.bytes + serialised_bytes(pose));
     out.send.emplace_back(pose);
-    if (status != PoseStatus::kAccepted) return;
+    if (!verdict.accepted()) return;
     FrameDecision predict;
     predict.action = FrameDecision::Action::kPredict;
     predict.frame = exchange.frame;

@@ -186,7 +186,12 @@ void ExchangeNode::on_tick() {
 void ExchangeNode::drive(const std::string& peer, const std::function<void(RoleOutput&)>& action) {
   RoleOutput out;
   action(out);
-  for (const PoseMessage& message : out.send) publish(message);
+  for (const PoseMessage& message : out.send) {
+    publish(message);
+    if (const auto* pose = std::get_if<RelativePoseMessage>(&message)) {
+      show(pose->dependent, pose->verdict);
+    }
+  }
   for (const FrameDecision& decision : out.decisions) publish(decision);
   for (const std::string& problem : out.problems) {
     health_.warn("message of " + peer + " refused",
@@ -196,12 +201,21 @@ void ExchangeNode::drive(const std::string& peer, const std::function<void(RoleO
   }
 }
 
+// The reference shows the verdict that it sends, the dependent the one that it was told.
+void ExchangeNode::show(const std::string& peer, const PoseVerdict& verdict) {
+  health_.show("last verdict with " + peer, describe(verdict));
+  if (verdict.accepted()) return;
+  health_.show("last rejection with " + peer, describe(verdict));
+  health_.count(std::string("poses rejected, ") + name_of(verdict.status));
+}
+
 void ExchangeNode::publish(const FrameDecision& decision) {
   using Action = FrameDecision::Action;
   const bool accepted =
       decision.action == Action::kSendSparse || decision.action == Action::kPredict;
   health_.count(accepted ? "poses accepted" : "frames sent whole");
   if (!accepted) health_.show("last reason for a whole frame", decision.reason);
+  if (decision.verdict) show(decision.peer, *decision.verdict);
   decisions_.publish(boost::make_shared<const FrameDecision>(decision));
   observer_(decision, health_);
   if (!accepted) return;

@@ -62,6 +62,7 @@ class ExchangeNode {
   void drive(const std::string& peer, const std::function<void(RoleOutput&)>& action);
   void publish(const FrameDecision& decision);
   void publish(const PoseMessage& message);
+  void show(const std::string& peer, const PoseVerdict& verdict);
 
   ros::NodeHandle nh_;
   const ExchangeNodeOptions options_;

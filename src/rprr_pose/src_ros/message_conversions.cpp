@@ -44,7 +44,10 @@ rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   out.dependent_stamp = to_time(message.dependent_stamp);
   out.dependent = message.dependent;
   out.exchange = message.exchange;
-  out.status = static_cast<std::uint8_t>(message.status);
+  out.status = static_cast<std::uint8_t>(message.verdict.status);
+  out.quantity = static_cast<std::uint8_t>(message.verdict.quantity);
+  out.measured = message.verdict.measured;
+  out.needed = message.verdict.needed;
   pose_to_fields(message.motion, out.translation, out.rotation);
   std::size_t at = 0;
   for (int i = 0; i < 6; ++i) {
@@ -82,8 +85,8 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   out.dependent_stamp = to_stamp(message.dependent_stamp);
   out.dependent = message.dependent;
   out.exchange = message.exchange;
-  const bool known = message.status <= static_cast<std::uint8_t>(PoseStatus::kNoFrame);
-  out.status = known ? static_cast<PoseStatus>(message.status) : PoseStatus::kMalformed;
+  out.verdict = {pose_status_from(message.status), pose_quantity_from(message.quantity),
+                 message.measured, message.needed};
   out.motion = pose_from_fields(message.translation, message.rotation);
   std::size_t at = 0;
   for (int i = 0; i < 6; ++i) {

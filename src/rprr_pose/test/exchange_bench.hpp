@@ -8,6 +8,7 @@
 #include <rprr_msgs/PoseUpdate.h>
 #include <rprr_msgs/RelativePose.h>
 #include <rprr_msgs/SamplePoints.h>
+#include <rprr_msgs/SetReference.h>
 
 #include <algorithm>
 #include <functional>
@@ -164,6 +165,14 @@ class ExchangeNodes : public testing::Test {
     return translation_error(motion, truth) < metres_allowed &&
            rotation_error(motion, truth) < degrees_allowed;
   }
+  /// Makes a peer a reference of robot a or b, or not any more, while the nodes run.
+  bool set_reference(const std::string& robot, const std::string& peer, bool refer) {
+    rprr_msgs::SetReference call;
+    call.request.peer = peer;
+    call.request.refer = refer ? 1 : 0;
+    return ros::service::call("/" + robot + "_exchange/set_reference", call) &&
+           call.response.success != 0;
+  }
   /// After a disturbance the first exchange may end early: robots tell each other their cameras
   /// again.
   bool service_is_back() {
@@ -194,6 +203,21 @@ class ExchangeNodes : public testing::Test {
           all = all && status.message.find(word) != std::string::npos;
         }
         found = found || all;
+      }
+    };
+    wait([&] { return found; }, 10);
+    diagnostics.listener = nullptr;
+    return found;
+  }
+  /// Waits until the exchange of that robot shows this value on /diagnostics.
+  bool shows(const std::string& robot, const std::string& key, const std::string& value) {
+    bool found = false;
+    diagnostics.listener = [&](const diagnostic_msgs::DiagnosticArray& array) {
+      for (const auto& status : array.status) {
+        if (status.hardware_id != robot) continue;
+        if (status.name.find("exchange") == std::string::npos) continue;
+        for (const auto& pair : status.values)
+          found = found || (pair.key == key && pair.value == value);
       }
     };
     wait([&] { return found; }, 10);

@@ -204,7 +204,8 @@ TEST_F(ExchangeNodes, GarbageWhileNothingGoesOnIsHarmless) {
   flood(radio_a_update, *a_updates.messages.back());
   flood(radio_b_update, *b_updates.messages.back());
   RelativePose pose = *poses.messages.back();
-  pose.status = 200;
+  pose.status = pose.quantity = 200;
+  pose.measured = std::numeric_limits<float>::quiet_NaN();
   pose.checksum = checksum_of(pose);
   radio_pose.publish(pose);
   EXPECT_TRUE(complains("exchange", "eyebug_b", {"eyebug_a"})) << heard_;

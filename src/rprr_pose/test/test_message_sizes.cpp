@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include <limits>
+#include <utility>
+
 #include "rprr_pose_ros/message_conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
 #include "rprr_wire/bytes.hpp"
@@ -27,23 +30,88 @@ TEST(MessageSizes, TheCoreCountsWhatRosSerialises) {
   EXPECT_EQ(serialised_bytes(PoseMessage(pose)), serialised_bytes(pose));
 }
 
-TEST(MessageConversions, PosesComeBackAndUnknownStatusesAreMalformed) {
+TEST(MessageConversions, PosesComeBack) {
   RelativePoseMessage pose;
   pose.stamp = 1305031790645155000;
   pose.dependent_stamp = pose.stamp + 5;
-  pose.status = PoseStatus::kDegenerate;
+  pose.verdict = {PoseStatus::kAmbiguous, PoseQuantity::kMargin, 0.02f, 0.06f};
   pose.motion = test_motion(0.4, 30.0);
   pose.covariance = Matrix6::Identity();
   pose.covariance(0, 5) = pose.covariance(5, 0) = 0.25;
   const RelativePoseMessage back = from_ros(to_ros(pose));
   EXPECT_EQ(back.stamp, pose.stamp);
   EXPECT_EQ(back.dependent_stamp, pose.dependent_stamp);
-  EXPECT_EQ(back.status, pose.status);
+  EXPECT_EQ(describe(back.verdict), describe(pose.verdict));
   EXPECT_LT((back.motion.matrix() - pose.motion.matrix()).norm(), 1e-12);
   EXPECT_LT((back.covariance - pose.covariance).norm(), 1e-6);
-  rprr_msgs::RelativePose message = to_ros(pose);
-  message.status = 200;
-  EXPECT_EQ(from_ros(message).status, PoseStatus::kMalformed);
+}
+
+TEST(MessageConversions, EveryVerdictComesBackAndWhatIsNoneIsUnknown) {
+  rprr_msgs::RelativePose message = to_ros(RelativePoseMessage());
+  for (int i = 0; i < 256; ++i) {
+    message.status = message.quantity = static_cast<std::uint8_t>(i);
+    message.measured = static_cast<float>(i);
+    message.needed = -static_cast<float>(i);
+    const PoseVerdict verdict = from_ros(message).verdict;
+    EXPECT_EQ(verdict.status, i <= 11 ? static_cast<PoseStatus>(i) : PoseStatus::kUnknown);
+    EXPECT_EQ(verdict.quantity, i <= 14 ? static_cast<PoseQuantity>(i) : PoseQuantity::kUnknown);
+    RelativePoseMessage pose;
+    pose.verdict = verdict;
+    const rprr_msgs::RelativePose again = to_ros(pose);
+    EXPECT_EQ(again.status, i <= 11 ? i : 255);
+    EXPECT_EQ(again.quantity, i <= 14 ? i : 255);
+    EXPECT_EQ(again.measured, message.measured);
+    EXPECT_EQ(again.needed, message.needed);
+  }
+}
+
+TEST(MessageConversions, AVerdictThatIsNoneIsNotAcceptedAndSaysSo) {
+  rprr_msgs::RelativePose message = to_ros(RelativePoseMessage());
+  message.status = message.quantity = 200;
+  message.measured = std::numeric_limits<float>::quiet_NaN();
+  message.needed = std::numeric_limits<float>::infinity();
+  const PoseVerdict verdict = from_ros(message).verdict;
+  EXPECT_FALSE(verdict.accepted());
+  const std::string text = describe(verdict);
+  for (const char* words : {"unknown status", "unknown quantity", "not a number", "infinite"}) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  }
+}
+
+TEST(MessageConversions, TheConstantsOfTheMessageAreThoseOfTheCore) {
+  using M = rprr_msgs::RelativePose;
+  const std::pair<int, PoseStatus> statuses[] = {
+      {M::ACCEPTED, PoseStatus::kAccepted},
+      {M::TIMED_OUT, PoseStatus::kTimedOut},
+      {M::TOO_FEW_POINTS, PoseStatus::kTooFewPoints},
+      {M::NOT_CONVERGED, PoseStatus::kNotConverged},
+      {M::FREE_DIRECTION, PoseStatus::kFreeDirection},
+      {M::LITTLE_OVERLAP, PoseStatus::kLittleOverlap},
+      {M::DEPTH_DISAGREES, PoseStatus::kDepthDisagrees},
+      {M::FREE_SPACE_VIOLATED, PoseStatus::kFreeSpaceViolated},
+      {M::MALFORMED, PoseStatus::kMalformed},
+      {M::NO_FRAME, PoseStatus::kNoFrame},
+      {M::AMBIGUOUS, PoseStatus::kAmbiguous},
+      {M::COLOUR_DISAGREES, PoseStatus::kColourDisagrees}};
+  for (const auto& [constant, status] : statuses) EXPECT_EQ(constant, static_cast<int>(status));
+  const std::pair<int, PoseQuantity> quantities[] = {
+      {M::NONE, PoseQuantity::kNone},
+      {M::LOG_ODDS, PoseQuantity::kLogOdds},
+      {M::MARGIN, PoseQuantity::kMargin},
+      {M::OVERLAP, PoseQuantity::kOverlap},
+      {M::FREE_SPACE, PoseQuantity::kFreeSpace},
+      {M::CONSISTENT, PoseQuantity::kConsistent},
+      {M::RESIDUAL, PoseQuantity::kResidual},
+      {M::MATCHED_POINTS, PoseQuantity::kMatchedPoints},
+      {M::VALID_POINTS, PoseQuantity::kValidPoints},
+      {M::TRANSLATION_SIGMA, PoseQuantity::kTranslationSigma},
+      {M::ROTATION_SIGMA, PoseQuantity::kRotationSigma},
+      {M::TRANSLATION_STEP, PoseQuantity::kTranslationStep},
+      {M::ROTATION_STEP, PoseQuantity::kRotationStep},
+      {M::SILENCE, PoseQuantity::kSilence},
+      {M::TIME_APART, PoseQuantity::kTimeApart}};
+  for (const auto& [constant, quantity] : quantities)
+    EXPECT_EQ(constant, static_cast<int>(quantity));
 }
 
 TEST(PoseSeal, HoldsOnTheWayAndBreaksWithAnyBitOfThePose) {
@@ -62,6 +130,9 @@ TEST(PoseSeal, HoldsOnTheWayAndBreaksWithAnyBitOfThePose) {
   }
   rprr_msgs::RelativePose other = message;
   other.status = 0;
+  EXPECT_NE(other.checksum, checksum_of(other));
+  other = message;
+  other.measured += 1.0f;
   EXPECT_NE(other.checksum, checksum_of(other));
   other = message;
   other.header.stamp += ros::Duration(0, 1);

@@ -37,7 +37,7 @@ class MotionPriorTest : public ::testing::Test {
     return std::get<RelativePoseMessage>(at_a.send.at(0));
   }
   static void expect_right(const RelativePoseMessage& pose, const Pose& truth = kTruth) {
-    EXPECT_EQ(pose.status, PoseStatus::kAccepted) << reason_of(pose.status);
+    EXPECT_TRUE(pose.verdict.accepted()) << describe(pose.verdict);
     EXPECT_LT(translation_error(pose.motion, truth), 0.03);
     EXPECT_LT(rotation_error(pose.motion, truth), 0.7);
   }
@@ -100,7 +100,7 @@ TEST_F(MotionPriorTest, AWrongProposalDoesNotHideTheLastAcceptedPose) {
 TEST_F(MotionPriorTest, AWrongProposalIsNotBelievedWhereNothingIsShared) {
   const Pose truth = test_motion(0.2, 150.0);
   proposals = {kTruth, Pose::Identity()};
-  EXPECT_NE(exchange(1000, truth).status, PoseStatus::kAccepted);
+  EXPECT_FALSE(exchange(1000, truth).verdict.accepted());
 }
 
 TEST_F(MotionPriorTest, WhatIsNoPoseIsPassedOver) {

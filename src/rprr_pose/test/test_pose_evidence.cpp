@@ -47,6 +47,20 @@ TEST(PoseEvidence, EveryTermMovesBeliefItsWay) {
   EXPECT_LT(with([](PoseEvidence& e) { e.margin = 0.0; }), log_odds(good));
 }
 
+TEST(PoseEvidence, TheWeakestTermIsTheCause) {
+  const PoseEvidence good = evidence_of(agreeing(), agreeing(), 0.3);
+  const auto cause = [&good](auto change) {
+    PoseEvidence changed = good;
+    change(changed);
+    return weakest_evidence(changed);
+  };
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.correlation = -0.5; }), PoseStatus::kColourDisagrees);
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.fine_correlation = 0.0; }), PoseStatus::kColourDisagrees);
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.odd = 0.3; }), PoseStatus::kDepthDisagrees);
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.violating = 0.1; }), PoseStatus::kFreeSpaceViolated);
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.margin = 0.0; }), PoseStatus::kAmbiguous);
+}
+
 TEST(PoseEvidence, NothingSharedIsNotBelieved) {
   EXPECT_LT(log_odds(evidence_of({}, {}, 1.0)), 0.0);
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "preview_bench.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/camera_wire.hpp"
 #include "rprr_wire/preview.hpp"
@@ -62,6 +63,27 @@ TEST_F(PreviewNodes, OneMessageEachWayGivesTheTruePoseOnAllTopics) {
         << "bytes as they crossed the radio";
   }
   EXPECT_EQ(pose.bytes_spent, at_b.exchange_bytes);
+}
+
+std::string in_words(const RelativePose& pose) {
+  return describe({pose_status_from(pose.status), pose_quantity_from(pose.quantity), pose.measured,
+                   pose.needed});
+}
+
+TEST_F(PreviewNodes, BothRobotsShowTheVerdict) {
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  EXPECT_EQ(pose_of(stamp)->quantity, RelativePose::LOG_ODDS);
+  EXPECT_GE(pose_of(stamp)->measured, pose_of(stamp)->needed);
+  const std::string accepted = in_words(*pose_of(stamp));
+  EXPECT_TRUE(shows("eyebug_a", "last verdict with eyebug_b", accepted)) << accepted;
+  EXPECT_TRUE(shows("eyebug_b", "last verdict with eyebug_a", accepted)) << accepted;
+  ASSERT_TRUE(exchange_elsewhere()) << last_outcome();
+  const std::string rejected = in_words(*pose_of(stamp));
+  EXPECT_NE(rejected.find("needs"), std::string::npos) << rejected;
+  EXPECT_EQ(event_of(b_events, stamp)->reason, "pose rejected by eyebug_a: " + rejected);
+  EXPECT_TRUE(service_is_back()) << last_outcome();
+  EXPECT_TRUE(shows("eyebug_a", "last rejection with eyebug_b", rejected)) << rejected;
+  EXPECT_TRUE(shows("eyebug_b", "last rejection with eyebug_a", rejected)) << rejected;
 }
 
 TEST_F(PreviewNodes, AcceptedPosesAreOnTf) {
@@ -200,6 +222,33 @@ TEST_F(PreviewNodes, RobotsThatStandStillAreSaidToStandStill) {
   b.show(stamp);
   ASSERT_TRUE(wait([&] { return motion_of(a_motions, stamp) != nullptr; })) << last_outcome();
   EXPECT_EQ(motion_of(a_motions, stamp)->outcome, CameraMotionOfRobot::STILL);
+}
+
+TEST_F(PreviewNodes, RolesChangeWhileTheNodesRunAndNoExchangeIsLost) {
+  Inbox<RelativePose> poses_of_b(nh, "/eyebug_b/rprr/relative_pose");
+  ASSERT_TRUE(wait([&] { return poses_of_b.connected(); }));
+  ASSERT_TRUE(service_is_back()) << last_outcome();
+  for (const bool b_refers : {false, true, false, true}) {
+    ASSERT_TRUE(set_reference("b", "eyebug_a", b_refers));
+    ASSERT_TRUE(set_reference("a", "eyebug_b", !b_refers));
+    for (int i = 0; i < 3; ++i) {
+      next_stamp();
+      (b_refers ? a : b).show(stamp);
+      (b_refers ? b : a).show(stamp);
+      const auto& dependents = b_refers ? b_events : a_events;
+      const auto& references = b_refers ? a_events : b_events;
+      ASSERT_TRUE(wait([&] {
+        return event_of(dependents, stamp) != nullptr && event_of(references, stamp) != nullptr;
+      })) << (b_refers ? "b" : "a")
+          << " got no answer";
+      EXPECT_EQ(event_of(dependents, stamp)->action, ExchangeEvent::SEND_SPARSE)
+          << event_of(dependents, stamp)->reason;
+      EXPECT_EQ(event_of(references, stamp)->action, ExchangeEvent::PREDICT);
+      const auto& told = b_refers ? poses : poses_of_b;
+      EXPECT_EQ(told.messages.back()->status, RelativePose::ACCEPTED);
+    }
+  }
+  EXPECT_FALSE(set_reference("a", "eyebug_x", true)) << "none of its peers";
 }
 
 TEST_F(PreviewNodes, ASilentDependentCostsNothing) {

@@ -26,9 +26,8 @@ TEST(PreviewPose, FindsMotionsFromFarApart) {
        {std::pair{0.0, 0.0}, {0.1, 6.0}, {0.25, 14.0}, {0.1, -22.0}}) {
     const Pose truth = test_motion(metres, degrees);
     const PreviewPose found = estimate(truth);
-    EXPECT_EQ(found.status, PoseStatus::kAccepted)
-        << metres << " m, " << degrees << " deg: " << reason_of(found.status) << ", log odds "
-        << found.log_odds;
+    EXPECT_TRUE(found.verdict.accepted())
+        << metres << " m, " << degrees << " deg: " << describe(found.verdict);
     EXPECT_LT(translation_error(found.motion, truth), 0.03)
         << metres << " m, " << degrees << " deg";
     EXPECT_LT(rotation_error(found.motion, truth), 0.8) << metres << " m, " << degrees << " deg";
@@ -38,7 +37,7 @@ TEST(PreviewPose, FindsMotionsFromFarApart) {
 TEST(PreviewPose, AnotherExposureDoesNotMatter) {
   const Pose truth = test_motion(0.12, 7.0);
   const PreviewPose found = estimate(truth, 0.7);
-  EXPECT_EQ(found.status, PoseStatus::kAccepted) << reason_of(found.status);
+  EXPECT_TRUE(found.verdict.accepted()) << describe(found.verdict);
   EXPECT_LT(translation_error(found.motion, truth), 0.03);
 }
 
@@ -51,7 +50,7 @@ TEST(PreviewPose, AWarmStartThatVerifiesSparesTheSearch) {
 }
 
 TEST(PreviewPose, NoOverlapIsAnAnswer) {
-  EXPECT_NE(estimate(test_motion(0.2, 160.0)).status, PoseStatus::kAccepted);
+  EXPECT_FALSE(estimate(test_motion(0.2, 160.0)).verdict.accepted());
 }
 
 TEST(PreviewPose, ABareWallIsNotAccepted) {
@@ -59,8 +58,7 @@ TEST(PreviewPose, ABareWallIsNotAccepted) {
   wall->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000));
   wall->bgr = cv::Mat(240, 320, CV_8UC3, cv::Scalar(180, 190, 200));
   PreviewPoseEstimator estimator({});
-  EXPECT_NE(estimator.estimate(*wall, sent_preview(*wall), kTestCamera, {}).status,
-            PoseStatus::kAccepted);
+  EXPECT_FALSE(estimator.estimate(*wall, sent_preview(*wall), kTestCamera, {}).verdict.accepted());
 }
 
 TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
@@ -68,11 +66,10 @@ TEST(PreviewPose, AFrameWithoutDepthIsNotAccepted) {
   blind->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(0));
   const RgbdFramePtr seeing = textured_frame(Pose::Identity(), 1, "b");
   PreviewPoseEstimator estimator({});
-  EXPECT_NE(estimator.estimate(*blind, sent_preview(*seeing), kTestCamera, {}).status,
-            PoseStatus::kAccepted);
+  EXPECT_FALSE(
+      estimator.estimate(*blind, sent_preview(*seeing), kTestCamera, {}).verdict.accepted());
   PreviewPoseEstimator other({});
-  EXPECT_NE(other.estimate(*seeing, sent_preview(*blind), kTestCamera, {}).status,
-            PoseStatus::kAccepted);
+  EXPECT_FALSE(other.estimate(*seeing, sent_preview(*blind), kTestCamera, {}).verdict.accepted());
 }
 
 TEST(PreviewPose, NoCameraOfAPeerIsTooStrange) {
@@ -86,7 +83,7 @@ TEST(PreviewPose, NoCameraOfAPeerIsTooStrange) {
       ASSERT_TRUE(camera.valid()) << "one that the wire lets through";
       PreviewPoseEstimator estimator({});
       const PreviewPose pose = estimator.estimate(*a, preview, camera, {Pose::Identity()});
-      EXPECT_NE(pose.status, PoseStatus::kAccepted) << focal << ", " << centre;
+      EXPECT_FALSE(pose.verdict.accepted()) << focal << ", " << centre;
     }
   }
 }
@@ -104,8 +101,8 @@ TEST(PreviewPose, AFrameWithoutColourIsSurvivedAndNotBelieved) {
   auto colourless = std::make_shared<RgbdFrame>(*textured_frame(Pose::Identity(), 1, "a"));
   colourless->bgr.release();
   PreviewPoseEstimator estimator({});
-  EXPECT_NE(estimator.estimate(*colourless, sent_preview(*colourless), kTestCamera, {}).status,
-            PoseStatus::kAccepted);
+  EXPECT_FALSE(estimator.estimate(*colourless, sent_preview(*colourless), kTestCamera, {})
+                   .verdict.accepted());
 }
 
 TEST(PreviewPose, TheCovarianceIsOfTheRightSizeAndDirection) {

@@ -51,7 +51,7 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
   exchange(1000);
   ASSERT_EQ(at_b.send.size(), 1u);
   ASSERT_EQ(at_a.send.size(), 1u);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
   EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u) << "predict, then send whole as reference";
   EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kPredict);
@@ -71,7 +71,7 @@ TEST_F(PreviewProtocol, TheDependentMaySendDepthLossless) {
   options.lossless_depth = true;
   dependent = dependent_of(options);
   exchange(1000);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted) << reason_of(pose().status);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
   EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u);
   ASSERT_TRUE(at_a.decisions[0].peer_preview);
@@ -90,17 +90,17 @@ TEST_F(PreviewProtocol, IntrinsicsCrossTheRadioOnce) {
   exchange(2000);
   EXPECT_EQ(serialised_bytes(at_b.send[0]) + kCameraBytes, first);
   EXPECT_TRUE(pose().reference_camera.empty());
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 TEST_F(PreviewProtocol, ARestartedReferenceIsToldTheCameraAgain) {
   exchange(1000);
   reference = reference_of();
   exchange(2000);
-  EXPECT_EQ(pose().status, PoseStatus::kMalformed);
+  EXPECT_EQ(pose().verdict.status, PoseStatus::kMalformed) << describe(pose().verdict);
   EXPECT_EQ(at_b.decisions.at(0).action, FrameDecision::Action::kSendWhole);
   exchange(3000);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 TEST_F(PreviewProtocol, WithoutAnAnswerBGoesOutWhole) {
@@ -119,7 +119,7 @@ TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
   EXPECT_TRUE(at_a.send.empty());
   reference->offer(frame_a(), 0, at_a);
   ASSERT_EQ(at_a.send.size(), 1u);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
@@ -139,7 +139,7 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
     EXPECT_TRUE(at_a.send.empty()) << "its frame may be about to arrive";
     reference->tick(from_seconds(0.6), at_a);
     ASSERT_EQ(at_a.send.size(), 1u);
-    EXPECT_EQ(pose().status, PoseStatus::kNoFrame);
+    EXPECT_EQ(pose().verdict.status, PoseStatus::kNoFrame) << describe(pose().verdict);
     EXPECT_EQ(pose().stamp, stamp + from_seconds(0.4))
         << "of a frame of its own: clocks are compared by it";
     EXPECT_TRUE(at_a.decisions.empty()) << "nothing is sent for it";
@@ -147,6 +147,9 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
     ASSERT_EQ(at_b.decisions.size(), 1u);
     EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
     EXPECT_NE(at_b.decisions[0].reason.find("clocks"), std::string::npos);
+    EXPECT_EQ(pose().verdict.quantity, PoseQuantity::kTimeApart);
+    const double nearest = seconds > 0.0 ? seconds - 0.4 : -seconds;
+    EXPECT_NEAR(pose().verdict.measured, nearest, 1e-4) << describe(pose().verdict);
     reference->tick(from_seconds(2.0), at_a);
     EXPECT_EQ(at_a.send.size(), 1u) << "once";
   }
@@ -186,7 +189,7 @@ class BusyReference : public PreviewProtocol {
 TEST_F(BusyReference, RefersToWhatTheStationHolds) {
   reference->set_radio({false, {1000}, 0.0}, now, at_a);
   exchange(3000);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
   EXPECT_EQ(pose().stamp, 1000);
   EXPECT_EQ(pose().dependent_stamp, 3000);
   ASSERT_EQ(at_a.decisions.size(), 1u) << "nothing is sent whole once more";
@@ -236,7 +239,7 @@ TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
     reference->tick(now, at_a);
   }
   ASSERT_EQ(at_a.send.size(), 1u);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 TEST_F(PreviewProtocol, DoubledPreviewsAreAnsweredOnce) {
@@ -273,7 +276,7 @@ TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
   EXPECT_FALSE(at_a.problems.empty());
   dependent->tick(from_seconds(1.0), at_b);  // gives up waiting
   for (Stamp stamp : {5000, 6000}) exchange(stamp);
-  EXPECT_EQ(pose().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
@@ -281,7 +284,7 @@ TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
   RelativePoseMessage bad;
   bad.dependent = "b";
   bad.exchange = 1;
-  bad.status = PoseStatus::kAccepted;
+  bad.verdict.status = PoseStatus::kAccepted;
   bad.motion.linear() *= 2.0;
   dependent->receive("a", bad, 0, at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);

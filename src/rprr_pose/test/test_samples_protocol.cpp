@@ -94,7 +94,7 @@ TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.poses.size(), 1u);
   const RelativePoseMessage& pose = pair.poses[0];
-  EXPECT_EQ(pose.status, PoseStatus::kAccepted) << reason_of(pose.status);
+  EXPECT_TRUE(pose.verdict.accepted()) << describe(pose.verdict);
   EXPECT_LT(translation_error(pose.motion, kTruth), 0.01);
   EXPECT_LT(rotation_error(pose.motion, kTruth), 0.3);
   ASSERT_EQ(pair.at_reference.size(), 2u) << "send whole as reference, then predict";
@@ -146,7 +146,7 @@ TEST(SamplesProtocol, ThePapersWayResamplesAndAgrees) {
   pair.offer(frame_a(), frame_b());
   pair.run(from_seconds(2.0));
   ASSERT_EQ(pair.poses.size(), 1u);
-  EXPECT_EQ(pair.poses[0].status, PoseStatus::kAccepted) << reason_of(pair.poses[0].status);
+  EXPECT_TRUE(pair.poses[0].verdict.accepted()) << describe(pair.poses[0].verdict);
   EXPECT_LT(translation_error(pair.poses[0].motion, kTruth), 0.03);
   EXPECT_EQ(pair.messages, 4 * pair.poses[0].iterations + 1);
 }
@@ -156,10 +156,44 @@ TEST(SamplesProtocol, NoOverlapIsRejectedAndBGoesOutWhole) {
   pair.offer(frame_a(), corner_frame(test_motion(0.2, 150.0), 1000, "b"));
   pair.run(from_seconds(3.0));
   ASSERT_EQ(pair.poses.size(), 1u);
-  EXPECT_NE(pair.poses[0].status, PoseStatus::kAccepted);
+  const PoseVerdict& verdict = pair.poses[0].verdict;
+  EXPECT_FALSE(verdict.accepted());
   ASSERT_FALSE(pair.at_dependent.empty());
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendWhole);
-  EXPECT_FALSE(pair.at_dependent[0].reason.empty());
+  EXPECT_EQ(pair.at_dependent[0].reason, "pose rejected: " + describe(verdict));
+  EXPECT_NE(pair.at_dependent[0].reason.find("needs"), std::string::npos)
+      << pair.at_dependent[0].reason;
+  ASSERT_TRUE(pair.at_dependent[0].verdict);
+  EXPECT_EQ(pair.at_dependent[0].verdict->status, verdict.status);
+}
+
+TEST(SamplesProtocol, AnIterationThatIsCutShortSaysHowFarItStillMoved) {
+  Pair pair([](SamplesOptions& options) {
+    options.local_start = false;
+    options.max_iterations = 1;
+  });
+  pair.offer(frame_a(), frame_b());
+  pair.run(from_seconds(0.4));
+  ASSERT_EQ(pair.poses.size(), 1u);
+  const PoseVerdict& verdict = pair.poses[0].verdict;
+  EXPECT_EQ(verdict.status, PoseStatus::kNotConverged) << describe(verdict);
+  EXPECT_EQ(verdict.needed, 1e-3f);
+  EXPECT_GT(verdict.measured, 0.01f) << "it starts 0.12 m and 6 degrees off";
+}
+
+TEST(SamplesProtocol, AWallLeavesADirectionFree) {
+  const auto wall_of = [](const std::string& robot) {
+    auto wall = std::make_shared<RgbdFrame>(*corner_frame(Pose::Identity(), 1000, robot));
+    wall->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000));
+    return wall;
+  };
+  Pair pair;
+  pair.offer(wall_of("a"), wall_of("b"));
+  pair.run(from_seconds(2.0));
+  ASSERT_EQ(pair.poses.size(), 1u);
+  const PoseVerdict& verdict = pair.poses[0].verdict;
+  EXPECT_EQ(verdict.status, PoseStatus::kFreeDirection) << describe(verdict);
+  EXPECT_GT(verdict.measured, verdict.needed);
 }
 
 TEST(SamplesProtocol, AnyLostMessageCostsOneExchangeNotTheSession) {
@@ -187,7 +221,7 @@ TEST(SamplesProtocol, DoubledAndReorderedMessagesDoNoHarm) {
   pair.offer(frame_a(), frame_b());
   pair.run(from_seconds(0.5));
   ASSERT_EQ(pair.poses.size(), 1u);
-  EXPECT_EQ(pair.poses[0].status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pair.poses[0].verdict.accepted()) << describe(pair.poses[0].verdict);
   EXPECT_EQ(pair.at_dependent.size(), 1u);
 }
 
@@ -218,7 +252,11 @@ TEST(SamplesProtocol, ASilentDependentTimesOut) {
   pair.offer(frame_a(), nullptr);
   pair.run(from_seconds(1.0));
   ASSERT_EQ(pair.poses.size(), 1u);
-  EXPECT_EQ(pair.poses[0].status, PoseStatus::kTimedOut);
+  const PoseVerdict& verdict = pair.poses[0].verdict;
+  EXPECT_EQ(verdict.status, PoseStatus::kTimedOut) << describe(verdict);
+  EXPECT_EQ(verdict.quantity, PoseQuantity::kSilence);
+  EXPECT_GE(verdict.measured, verdict.needed);
+  EXPECT_FLOAT_EQ(verdict.needed, static_cast<float>(to_seconds(SamplesOptions().step_timeout)));
 }
 
 TEST(SamplesProtocol, BsFrameMayComeAfterAsPoints) {
@@ -280,7 +318,7 @@ TEST(SamplesProtocol, GarbageFromThePeerIsReportedAndSurvived) {
   pair.offer(frame_a(2000000), frame_b(2000000));
   pair.run(from_seconds(1.2));
   ASSERT_GE(pair.poses.size(), before + 1);
-  EXPECT_EQ(pair.poses.back().status, PoseStatus::kAccepted) << reason_of(pair.poses.back().status);
+  EXPECT_TRUE(pair.poses.back().verdict.accepted()) << describe(pair.poses.back().verdict);
 }
 
 TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
@@ -294,7 +332,7 @@ TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
     pair.offer(frame_a(stamp), frame_b(stamp));
     pair.run(from_seconds(1.2));
   }
-  EXPECT_EQ(pair.poses.back().status, PoseStatus::kAccepted);
+  EXPECT_TRUE(pair.poses.back().verdict.accepted()) << describe(pair.poses.back().verdict);
 }
 
 TEST(SamplesProtocol, AFrameWithoutDepthIsSaidSo) {
@@ -304,7 +342,7 @@ TEST(SamplesProtocol, AFrameWithoutDepthIsSaidSo) {
   pair.offer(empty, frame_b());
   pair.run(from_seconds(0.2));
   ASSERT_EQ(pair.poses.size(), 1u);
-  EXPECT_EQ(pair.poses[0].status, PoseStatus::kTooFewPoints);
+  EXPECT_EQ(describe(pair.poses[0].verdict), "too few points: points with depth 0, needs 30");
 }
 
 }  // namespace

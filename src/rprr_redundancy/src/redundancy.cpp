@@ -13,7 +13,7 @@ using Action = FrameDecision::Action;
 // Empty, or why a pose cannot be used.
 std::string problem_of(const FrameDecision& decision) {
   const std::string exchange = "the exchange with '" + decision.peer + "' ";
-  if (decision.pose.status != PoseStatus::kAccepted) {
+  if (!decision.pose.verdict.accepted()) {
     return exchange + "ended without an accepted pose";
   }
   if (!decision.peer_camera || !decision.peer_camera->valid()) return exchange + "gives no camera";

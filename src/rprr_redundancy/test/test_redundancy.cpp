@@ -46,7 +46,7 @@ FrameDecision decision(Action action, Stamp stamp, const std::string& peer,
   out.exchange_bytes = 5000;
   out.ms_pose = 3.0f;
   if (action == Action::kSendSparse || action == Action::kPredict) {
-    out.pose.status = PoseStatus::kAccepted;
+    out.pose.verdict.status = PoseStatus::kAccepted;
     out.pose.motion = b_from_a();
     out.pose.stamp = 500;
     out.pose.dependent_stamp = stamp;
@@ -170,7 +170,7 @@ TEST_F(RedundancyTest, DecisionsThatMakeNoSenseSendTheFrameWhole) {
   FrameDecision no_camera = decision(Action::kSendSparse, 200, "a");
   no_camera.peer_camera.reset();
   FrameDecision rejected = decision(Action::kSendSparse, 300, "a");
-  rejected.pose.status = PoseStatus::kLittleOverlap;
+  rejected.pose.verdict.status = PoseStatus::kLittleOverlap;
   for (const FrameDecision& bad : {no_pose, no_camera, rejected}) stage.take(bad, now, out);
   EXPECT_EQ(out.problems.size(), 3u);
   ASSERT_EQ(out.frames.size(), 3u);

@@ -42,4 +42,8 @@ struct BeliefModel {
 /// that samples that can be separated do not send them off.
 BeliefModel fit_belief(const std::vector<BeliefSample>& samples);
 
+/// Medians of the terms of right poses: what weaknesses of a pose are held against
+/// (rprr_pose/pose_evidence.hpp). Zeros if no sample is right.
+std::array<double, kEvidenceTerms> typical_terms(const std::vector<BeliefSample>& samples);
+
 }  // namespace rprr

@@ -8,7 +8,7 @@
 #include "rprr_eval/profile.hpp"
 #include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/se3.hpp"
-#include "rprr_pose/pose_status.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 
 namespace rprr {
 
@@ -43,12 +43,12 @@ struct PoseTrial {
   int number = 0;          // of the pair in it
   double overlap = 0.0;
   double true_degrees = 0.0, true_metres = 0.0;  // of the motion
-  PoseStatus status = PoseStatus::kTimedOut;
+  PoseVerdict verdict;
   PoseError error;
   Twist perturbation = Twist::Zero();    // log(M_est M_true^-1): tx ty tz rx ry rz
   Matrix6 covariance = Matrix6::Zero();  // of it, as the protocol states it
 
-  bool accepted() const { return status == PoseStatus::kAccepted; }
+  bool accepted() const { return verdict.accepted(); }
 };
 
 /// The first exchange of two robots that have not met, with the profile's protocol.

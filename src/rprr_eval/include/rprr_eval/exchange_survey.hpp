@@ -15,7 +15,7 @@ namespace rprr {
 struct ExchangeSurvey {
   int pairs = 0;
   int accepted = 0;
-  std::map<std::string, int> rejected;  // by reason
+  std::map<std::string, int> rejected;  // by cause
   std::map<int, int> histogram;         // iterations -> exchanges
   double mean_iterations = 0.0;
   int max_iterations = 0;

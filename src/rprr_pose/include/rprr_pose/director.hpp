@@ -71,6 +71,7 @@ class Director final : public ExchangeRole {
   void answer_with(const Question& question, const RgbdFramePtr& first, const RgbdFramePtr& second,
                    Stamp now, RoleOutput& out);
   void refuse(const Question& question, const RgbdFrame& newest, RoleOutput& out);
+  PoseVerdict no_frame_near(Stamp stamp) const;
   Attempt try_frame(const Question& question, const RgbdFrame& frame,
                     const Result<PreviewContent>& content,
                     const std::shared_ptr<const ReceivedPreview>& preview);

@@ -35,10 +35,12 @@ struct FrameDecision {
   /// How often stamps had gone back before the frame came (a recording that starts again, a clock
   /// that was set). Epoch and stamp together name a frame.
   std::uint32_t epoch = 0;
-  std::uint32_t exchange = 0;                           ///< 0: none
-  std::string peer;                                     ///< empty: none
-  std::string reason;                                   ///< kSendWhole: why, for people
-  RelativePoseMessage pose;                             ///< kSendSparse, kPredict
+  std::uint32_t exchange = 0;  ///< 0: none
+  std::string peer;            ///< empty: none
+  std::string reason;          ///< kSendWhole: why, for people
+  RelativePoseMessage pose;    ///< kSendSparse, kPredict
+  /// What the dependent learnt from the reference. Empty where nothing came, and at the reference.
+  std::optional<PoseVerdict> verdict;
   std::optional<Camera> peer_camera;                    ///< kSendSparse, kPredict
   std::shared_ptr<const ReceivedPreview> peer_preview;  ///< kPredict; null if there is none
   std::uint32_t exchange_bytes = 0;  ///< pose messages of the exchange, both ways, serialised

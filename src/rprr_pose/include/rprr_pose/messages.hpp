@@ -8,7 +8,7 @@
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
-#include "rprr_pose/pose_status.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
@@ -36,7 +36,7 @@ struct RelativePoseMessage {
   Stamp dependent_stamp = 0;
   std::string dependent;  // the receiver
   std::uint32_t exchange = 0;
-  PoseStatus status = PoseStatus::kTimedOut;
+  PoseVerdict verdict;                   // motion means something only if it is accepted
   Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz)
   std::uint16_t iterations = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "rprr_pose/pose_verdict.hpp"
 #include "rprr_pose/preview_agreement.hpp"
 
 namespace rprr {
@@ -27,5 +28,10 @@ std::array<double, kEvidenceTerms> terms_of(const PoseEvidence& evidence);
 /// the search found for pairs of synthetic rooms, turntables and corridors, and for frames of two
 /// different places. `rprr_eval belief --scenes 150` printed the numbers (docs/pose.md).
 double log_odds(const PoseEvidence& evidence);
+
+/// Names the cause of low log odds: that of the term which takes most from them, compared to the
+/// median of right poses. Both correlations stand for kColourDisagrees, odd for kDepthDisagrees,
+/// violating for kFreeSpaceViolated and margin for kAmbiguous.
+PoseStatus weakest_evidence(const PoseEvidence& evidence);
 
 }  // namespace rprr

@@ -6,7 +6,7 @@
 
 #include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_pose/pose_evidence.hpp"
-#include "rprr_pose/pose_status.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 #include "rprr_pose/preview_agreement.hpp"
 #include "rprr_pose/preview_alignment.hpp"
 #include "rprr_pose/preview_starts.hpp"
@@ -32,7 +32,7 @@ struct PreviewPoseOptions {
 
 /// What came of it.
 struct PreviewPose {
-  PoseStatus status = PoseStatus::kLittleOverlap;
+  PoseVerdict verdict;                   // the first test that failed; accepted: the log odds
   Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
   double score = 0.0;                    // of the pose
@@ -75,8 +75,9 @@ class PreviewPoseEstimator {
   void judge(Candidate& candidate) const;
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
+  PoseVerdict why_nothing(Candidate start) const;
   bool stands_alone(const Candidate& warm) const;
-  std::vector<Candidate> search() const;
+  std::vector<Candidate> search(Candidate& best_start) const;
   void slide(const CoarseMatch& match, std::vector<Candidate>& candidates) const;
 
   PreviewPoseOptions options_;

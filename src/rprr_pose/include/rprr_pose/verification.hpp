@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "rprr_pose/normal_equations.hpp"
-#include "rprr_pose/pose_status.hpp"
+#include "rprr_pose/pose_verdict.hpp"
 
 namespace rprr {
 
@@ -20,8 +22,14 @@ struct VerificationLimits {
 };
 
 /// Judges the final pose by both halves, each one-way: a scene that hides in one direction shows in
-/// the other. The worse half decides on violations.
-PoseStatus verify(const NormalEquations& at_dependent, const NormalEquations& at_reference,
-                  const VerificationLimits& limits);
+/// the other. The worse half decides on violations. A rejection carries the first test that failed,
+/// an acceptance the test that came nearest to failing (as a share of its limit).
+PoseVerdict verify(const NormalEquations& at_dependent, const NormalEquations& at_reference,
+                   const VerificationLimits& limits);
+
+/// Tells why the sums of an iteration, both halves together, gave no usable step. It is nothing if
+/// the sums are in order, so that the step itself was too long, and never an acceptance.
+std::optional<PoseVerdict> why_unsolved(const NormalEquations& both,
+                                        const VerificationLimits& limits);
 
 }  // namespace rprr
