@@ -58,8 +58,9 @@ bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& trut
 struct PairRunner::Robots {
   Robots(const Profile& profile, FrameEncoder frame_encoder)
       : harness(reference_role(profile), dependent_role(profile), kLatency),
+        decider(profile.decision),
         validator(profile.validation),
-        outgoing(kB),
+        outgoing(kB, profile.outgoing),
         encoder(std::move(frame_encoder)),
         independent_decoder(make_local_colour_decoder()),
         station(station_options(profile.station), make_isolated_colour_decoder()) {}

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "rprr_eval/metrics.hpp"
 #include "rprr_geometry/motion.hpp"
 #include "rprr_pose/samples_protocol.hpp"
@@ -27,9 +29,10 @@ ExchangeHarness samples_harness(Duration latency = kLatency) {
   SamplesOptions a;
   a.self = "a";
   a.peer = "b";
-  SamplesOptions b;
-  b.self = "b";
-  b.peer = "a";
+  a.max_iterations = 50;
+  a.step_timeout = from_seconds(0.5);
+  SamplesOptions b = a;
+  std::swap(b.self, b.peer);
   return {make_samples_reference(a), make_samples_dependent(b), latency};
 }
 

@@ -187,6 +187,7 @@ Roles preview_roles() {
   PreviewOptions a;
   a.self = "a";
   a.peer = "b";
+  a.reference_age = 0;
   PreviewOptions b = a;
   std::swap(b.self, b.peer);
   return {make_preview_reference(a), make_preview_dependent(b)};
@@ -195,6 +196,8 @@ Roles samples_roles() {
   SamplesOptions a;
   a.self = "a";
   a.peer = "b";
+  a.max_iterations = 50;
+  a.step_timeout = from_seconds(0.5);
   SamplesOptions b = a;
   std::swap(b.self, b.peer);
   return {make_samples_reference(a), make_samples_dependent(b)};

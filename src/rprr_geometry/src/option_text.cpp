@@ -30,11 +30,14 @@ std::string number_text(double value) {
   return number;
 }
 
-// A bound or a default in a sentence, where whole numbers need no point.
+// A bound in a sentence: no exponent, and a point only where it is needed.
 std::string short_number(double value) {
   char text[40];
-  std::snprintf(text, sizeof text, value == static_cast<long long>(value) ? "%.0f" : "%g", value);
-  return text;
+  std::snprintf(text, sizeof text, "%.9f", value);
+  std::string number = text;
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.back() == '.') number.pop_back();
+  return number;
 }
 
 // Whether YAML takes the text for a text without quotes.

@@ -9,6 +9,7 @@
 #include "rprr_pose_ros/message_conversions.hpp"
 #include "rprr_pose_ros/pose_seal.hpp"
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 namespace {
@@ -78,7 +79,12 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const
   timer_ = nh_.createWallTimer(
       kTick, [this](const ros::WallTimerEvent&) { worker_->post([this] { on_tick(); }); });
   subscribers_.push_back(nh_.subscribe(prefix + "radio", 4, &ExchangeNode::on_radio, this));
-  input_ = std::make_unique<RgbdSubscriber>(nh_, private_nh, robot, health_,
+  const Parameters parameters(private_nh);
+  InputOptions input;
+  input.max_stamp_difference = parameters.param("max_stamp_difference", 0.02);
+  input.depth_unit = parameters.param("depth_unit", input.depth_unit);
+  input.image_transport = parameters.param("image_transport", input.image_transport);
+  input_ = std::make_unique<RgbdSubscriber>(nh_, private_nh, robot, input, health_,
                                             [this](const RgbdFramePtr& frame) { on_frame(frame); });
 }
 

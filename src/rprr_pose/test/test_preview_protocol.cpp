@@ -17,6 +17,7 @@ PreviewOptions options_for(const std::string& self, const std::string& peer) {
   PreviewOptions options;
   options.self = self;
   options.peer = peer;
+  options.reference_age = 0;
   return options;
 }
 

@@ -21,6 +21,8 @@ SamplesOptions options_for(const std::string& self, const std::string& peer) {
   SamplesOptions options;
   options.self = self;
   options.peer = peer;
+  options.max_iterations = 50;
+  options.step_timeout = 500 * kMillisecond;
   return options;
 }
 

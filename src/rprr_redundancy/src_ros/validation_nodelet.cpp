@@ -64,8 +64,12 @@ class ValidationNodelet : public nodelet::Nodelet {
         static_cast<std::size_t>(frames_held), wait_for_frame, robot_, *health_,
         [this](const auto& event, const auto& frame) { on_match(event, frame); },
         [this] { on_restart(); });
+    InputOptions input;
+    input.max_stamp_difference = parameters.param("max_stamp_difference", 0.02);
+    input.depth_unit = parameters.param("depth_unit", input.depth_unit);
+    input.image_transport = parameters.param("image_transport", input.image_transport);
     images_ = std::make_unique<RgbdSubscriber>(
-        nh, private_nh, robot_, *health_,
+        nh, private_nh, robot_, input, *health_,
         [this](const RgbdFramePtr& frame) { matcher_->add_frame(frame); });
     events_ = nh.subscribe("/" + robot_ + "/rprr/exchange", 8, &ValidationNodelet::on_event, this);
     predictions_ =

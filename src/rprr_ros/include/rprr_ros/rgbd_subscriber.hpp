@@ -15,6 +15,7 @@
 
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/depth_frame.hpp"
+#include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_ros/health.hpp"
 
@@ -33,19 +34,27 @@ struct RgbdFrame {
 };
 using RgbdFramePtr = std::shared_ptr<const RgbdFrame>;
 
+/// How a robot's own camera is listened to.
+struct InputOptions {
+  double max_stamp_difference = 0.02;  // s, between colour and depth of one camera
+  double depth_unit = 0.0002;          // metres per count that 32FC1 depth is quantised to
+  std::string image_transport = "raw";
+};
+
+void list_options(InputOptions& options, OptionTable& table);
+
 /// Subscribes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
 /// .../depth_registered/image_rect, pairs colour and depth by stamp and checks them. What does not
 /// fit is dropped with a message and a diagnostic that name the topic and the remedy; depth without
-/// a single reading is reported and passed on. Private parameters: ~max_stamp_difference (s,
-/// default 0.02), ~depth_unit (metres per count for 32FC1 depth, default 0.0002), ~image_transport
-/// (default raw).
+/// a single reading is reported and passed on.
 class RgbdSubscriber {
  public:
   using Callback = std::function<void(const RgbdFramePtr&)>;
 
   /// The callback runs on the node handle's callback queue. health must outlive this object.
+  /// Parameters of image_transport itself are read from private_nh.
   RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& robot,
-                 Health& health, Callback callback);
+                 const InputOptions& options, Health& health, Callback callback);
 
  private:
   void on_info(const sensor_msgs::CameraInfoConstPtr& info);
@@ -57,8 +66,7 @@ class RgbdSubscriber {
 
   Health& health_;
   Callback callback_;
-  double max_stamp_difference_;
-  double depth_unit_;
+  const InputOptions options_;
   std::mutex mutex_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_rgb_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_depth_;
