@@ -124,7 +124,7 @@ void add_layouts(const cv::Mat& image, const BlockMask& mask, ColourEncoder& enc
 
 void sparse_images(const std::vector<cv::Mat>& images, const std::string& codec, int quality) {
   const auto encoder = make_colour_encoder(codec);
-  auto layers = ColourLayers::create(codec, "", UnsentFill::kSmooth);
+  auto layers = ColourLayers::create(codec, UnsentFill::kSmooth);
   for (const double share : {0.3, 0.1, 0.02}) {
     Layouts bytes;
     std::uint32_t seed = 1;
@@ -141,7 +141,7 @@ void sparse_images(const std::vector<cv::Mat>& images, const std::string& codec,
 }
 
 void bases(const std::vector<cv::Mat>& images, const std::string& codec, int quality) {
-  auto layers = ColourLayers::create(codec, "", UnsentFill::kSmooth);
+  auto layers = ColourLayers::create(codec, UnsentFill::kSmooth);
   for (const int reduction : {1, 2, 4, 8}) {
     std::vector<double> complete, filled;
     std::uint32_t seed = 1;

@@ -83,19 +83,14 @@ void enlarge_row(const cv::Mat& base, int reduction, int row, cv::Mat& out) {
   }
 }
 
-Result<ColourLayers> ColourLayers::create(const std::string& codec, const std::string& base_codec,
-                                          UnsentFill fill) {
-  Result<std::unique_ptr<ColourEncoder>> detail = make_colour_encoder(codec);
-  if (!detail) return Error{detail.reason()};
-  Result<std::unique_ptr<ColourEncoder>> base =
-      make_colour_encoder(base_codec.empty() ? codec : base_codec);
-  if (!base) return Error{base.reason()};
-  return ColourLayers(std::move(*detail), std::move(*base), fill);
+Result<ColourLayers> ColourLayers::create(const std::string& codec, UnsentFill fill) {
+  Result<std::unique_ptr<ColourEncoder>> encoder = make_colour_encoder(codec);
+  if (!encoder) return Error{encoder.reason()};
+  return ColourLayers(std::move(*encoder), fill);
 }
 
-ColourLayers::ColourLayers(std::unique_ptr<ColourEncoder> detail,
-                           std::unique_ptr<ColourEncoder> base, UnsentFill fill)
-    : detail_codec_(std::move(detail)), base_codec_(std::move(base)), fill_(fill) {
+ColourLayers::ColourLayers(std::unique_ptr<ColourEncoder> codec, UnsentFill fill)
+    : codec_(std::move(codec)), fill_(fill) {
 }
 
 void ColourLayers::prepare(const cv::Mat& bgr, const BlockMask* sent) {
@@ -131,7 +126,7 @@ void ColourLayers::fill(cv::Mat& bgr, const BlockMask& known, int reduction, boo
 const cv::Mat& ColourLayers::detail() {
   if (!sent_) return bgr_;
   if (detail_.ready) return detail_.image;
-  const bool flat = detail_codec_->prefers_flat_blocks();
+  const bool flat = codec_->prefers_flat_blocks();
   if (layout_ == ColourLayout::kCompact) {
     compact_->gather(bgr_, detail_.image);
     fill(detail_.image, compact_->used(), 1, flat);
@@ -150,7 +145,7 @@ const cv::Mat& ColourLayers::base(int reduction, bool with_detail) {
   if (with_detail && sent_ && reduction <= kBlockSide) {
     // Blocks of a reduced image are smaller than the codec's. A cell of 16 pixels is four blocks:
     // too few to be worth it.
-    fill(base.image, unsent_, reduction, reduction == 1 && base_codec_->prefers_flat_blocks());
+    fill(base.image, unsent_, reduction, reduction == 1 && codec_->prefers_flat_blocks());
   }
   base.ready = true;
   return base.image;
@@ -158,7 +153,7 @@ const cv::Mat& ColourLayers::base(int reduction, bool with_detail) {
 
 Result<Bytes> ColourLayers::encode_detail(int quality) {
   if (sent_ && sent_->count() == 0) return Error{"no block's colour is to be sent"};
-  return detail_codec_->encode(detail(), quality);
+  return codec_->encode(detail(), quality);
 }
 
 Result<Bytes> ColourLayers::encode_base(int reduction, int quality, bool with_detail) {
@@ -166,11 +161,11 @@ Result<Bytes> ColourLayers::encode_base(int reduction, int quality, bool with_de
     return Error{"the base is reduced " + std::to_string(reduction) +
                  " times, must be 1, 2, 4, 8, 16"};
   }
-  return base_codec_->encode(base(reduction, with_detail), quality);
+  return codec_->encode(base(reduction, with_detail), quality);
 }
 
 Result<Bytes> ColourLayers::encode_whole(int quality) {
-  return detail_codec_->encode(bgr_, quality);
+  return codec_->encode(bgr_, quality);
 }
 
 }  // namespace rprr

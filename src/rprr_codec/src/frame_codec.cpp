@@ -56,26 +56,30 @@ std::string impossible(const LayerSettings& settings, const ColourLayers& layers
     return "the base is reduced " + std::to_string(settings.base_reduction) +
            " times, must be 0 (no base), 1, 2, 4, 8 or 16";
   }
-  const std::string wrong = check(layers.base_info(), settings.base_quality);
+  const std::string wrong = check(layers.info(), settings.base_quality);
   return wrong.empty() && settings.detail ? check(layers.info(), settings.detail_quality) : wrong;
 }
 
 LayerLadder ladder_of(const FrameCodecOptions& options, const ColourLayers& layers,
                       bool few_blocks) {
-  return LayerLadder(
-      options.objective, few_blocks, layers.info(), layers.base_info(),
-      options.objective == Objective::kView ? options.view_quality : options.colour_quality);
+  const double quality = as_webp(layers.info(), options.colour_quality);
+  return LayerLadder(options.objective, few_blocks, layers.info(),
+                     options.objective == Objective::kView ? kViewShare * quality : quality);
 }
 
 }  // namespace
 
 Result<FrameEncoder> FrameEncoder::create(const FrameCodecOptions& options) {
-  Result<ColourLayers> layers =
-      ColourLayers::create(options.colour_codec, options.base_codec, options.fill);
-  if (!layers) return Error{layers.reason()};
+  Result<ColourLayers> layers = ColourLayers::create(options.colour_codec, options.fill);
+  if (!layers) return Error{"colour_codec: " + layers.reason()};
+  if (options.objective == Objective::kFixed &&
+      options.sparse_colours.by != SparseColours::By::kQuality) {
+    return Error{"sparse_colours: " + text_of(options.sparse_colours) +
+                 " is not, allowed under objective fixed: quality"};
+  }
   FrameEncoder encoder(options, std::move(*layers));
   const std::string wrong = impossible(encoder.settings(), encoder.layers_);
-  if (!wrong.empty()) return Error{wrong};
+  if (!wrong.empty()) return Error{"colour_quality: " + wrong};
   return encoder;
 }
 
@@ -89,7 +93,7 @@ FrameEncoder::FrameEncoder(FrameCodecOptions options, ColourLayers layers)
 }
 
 LayerSettings FrameEncoder::settings() const {
-  return {options_.base_reduction, options_.base_quality, options_.colour_quality, true};
+  return {0, 0, options_.colour_quality, true};
 }
 
 Result<bool> FrameEncoder::encode(const DepthFrame& depth, const cv::Mat& bgr,
@@ -178,7 +182,7 @@ Result<bool> FrameEncoder::encode_colour(EncodedFrame& frame, const LayerSetting
   frame.colour_codec = layers_.codec();
   frame.colour = std::move(*colour);
   frame.colour_layout = has_detail ? layers_.layout() : ColourLayout::kInPlace;
-  frame.base_codec = has_base ? layers_.base_codec() : std::string();
+  frame.base_codec = has_base ? layers_.codec() : std::string();
   frame.base = std::move(*base);
   frame.base_reduction = has_base ? settings.base_reduction : 0;
   if (has_base) {

@@ -20,19 +20,20 @@ Result<bool> FrameEncoder::encode_as_asked(EncodedFrame& frame) {
   return encode_colour(frame, settings());
 }
 
-// The finest that is within the budget, or the coarsest that reaches the target.
+// Sparse frames, objectives kView and kMap: what sparse_colours asks for.
 Result<bool> FrameEncoder::plan(EncodedFrame& frame) {
   const LayerLadder& ladder = ladder_for(frame);
-  if (options_.byte_budget > 0) {
-    const auto short_enough = [this](const EncodedFrame& trial) {
-      return serialise(trial).size() <= options_.byte_budget;
+  const SparseColours& goal = options_.sparse_colours;
+  if (goal.by == SparseColours::By::kBytes) {
+    const auto short_enough = [&goal](const EncodedFrame& trial) {
+      return static_cast<double>(serialise(trial).size()) <= goal.amount;
     };
     return search(ladder.all(), true, short_enough, last_rung_, frame);
   }
-  if (options_.target_psnr > 0.0) {
-    const auto good_enough = [this](const EncodedFrame& trial) {
+  if (goal.by == SparseColours::By::kPsnr) {
+    const auto good_enough = [this, &goal](const EncodedFrame& trial) {
       const Result<double> psnr = sent_psnr(trial);  // what cannot be told counts as no
-      return psnr && *psnr >= options_.target_psnr;
+      return psnr && *psnr >= goal.amount;
     };
     return search(ladder.all(), false, good_enough, last_rung_, frame);
   }
@@ -52,7 +53,7 @@ Result<bool> FrameEncoder::coarsen(EncodedFrame& frame, std::size_t limit) {
 std::vector<LayerSettings> FrameEncoder::coarser_settings(const EncodedFrame& frame) const {
   if (frame.sparse && options_.objective != Objective::kFixed) {
     const LayerLadder& ladder = ladder_for(frame);
-    const bool usual = options_.byte_budget == 0 && !(options_.target_psnr > 0.0);
+    const bool usual = options_.sparse_colours.by == SparseColours::By::kQuality;
     return {ladder.all().begin(), ladder.all().begin() + (usual ? ladder.usual() : ladder.rungs())};
   }
   std::vector<LayerSettings> rungs;

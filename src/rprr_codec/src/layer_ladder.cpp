@@ -78,13 +78,6 @@ const std::array<Equal, 7>* table_of(const std::string& codec) {
 
 }  // namespace
 
-std::optional<Objective> objective_of(const std::string& name) {
-  if (name == "fixed") return Objective::kFixed;
-  if (name == "map") return Objective::kMap;
-  if (name == "view") return Objective::kView;
-  return std::nullopt;
-}
-
 int like_webp(const ColourCodecInfo& codec, double webp_quality) {
   const auto* table = table_of(codec.name);
   const double quality = table == nullptr
@@ -114,15 +107,14 @@ std::vector<int> coarser_qualities(const ColourCodecInfo& codec, int quality) {
   return qualities;
 }
 
-LayerLadder::LayerLadder(Objective objective, bool few_blocks, const ColourCodecInfo& detail,
-                         const ColourCodecInfo& base, int usual_quality) {
-  const double wanted = as_webp(detail, usual_quality);
+LayerLadder::LayerLadder(Objective objective, bool few_blocks, const ColourCodecInfo& codec,
+                         double usual_quality) {
   double nearest = 1e9;
   const auto add = [&](const Rung& rung) {
     const bool has_detail = rung.detail != kNone;
-    settings_.push_back({rung.reduction, like_webp(base, rung.base),
-                         like_webp(detail, has_detail ? rung.detail : rung.base), has_detail});
-    const double distance = std::abs(rung.like - wanted);
+    settings_.push_back({rung.reduction, like_webp(codec, rung.base),
+                         like_webp(codec, has_detail ? rung.detail : rung.base), has_detail});
+    const double distance = std::abs(rung.like - usual_quality);
     if (distance > nearest) return;
     nearest = distance;
     usual_ = rungs() - 1;

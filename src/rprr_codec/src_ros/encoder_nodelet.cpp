@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <rprr_msgs/BlockMask.h>
@@ -20,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "codec_options.hpp"
+#include "encoder_options.hpp"
 #include "rprr_codec/frame_codec.hpp"
 #include "rprr_codec_ros/outgoing_message.hpp"
 #include "rprr_geometry/block_mask.hpp"
@@ -28,14 +27,14 @@
 #include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/live_options.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {
-
-using rprr_codec::EncoderConfig;
 
 constexpr std::size_t kLongestControl = 65536;  // bytes; no message of an exchange comes near it
 constexpr Duration kTellAgain = from_seconds(1.0);
@@ -63,15 +62,15 @@ class EncoderNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const Parameters parameters(private_nh);
-    robot_ = parameters.param<std::string>("robot", "eyebug_a");
+    const std::string wrong = read_parameters(private_nh, table_of(options_));
+    robot_ = options_.robot;
     health_ = std::make_unique<Health>(nh, private_nh, "encoder", robot_);
-    const std::string problem = make_encoder(parameters);
-    if (!problem.empty()) {
-      NODELET_FATAL_STREAM(problem << "; nothing is encoded until this is mended and restarted");
-      health_->error("parameters", problem);
-      return;
-    }
+    Result<FrameEncoder> encoder = FrameEncoder::create(options_.codec);
+    if (!wrong.empty()) return health_->refuse_parameters(wrong);
+    if (!encoder) return health_->refuse_parameters(encoder.reason());
+    encoder_ = std::make_unique<FrameEncoder>(std::move(*encoder));
+    options_.sending.robot = robot_;
+    queue_ = std::make_unique<SendQueue>(options_.sending);
     const std::string prefix = "/" + robot_ + "/rprr/";
     const auto joined = [this](const ros::SingleSubscriberPublisher&) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -80,27 +79,17 @@ class EncoderNodelet : public nodelet::Nodelet {
     publisher_ = nh.advertise<rprr_msgs::EncodedFrame>(prefix + "encoded", 16, joined);
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
-    timer_ = nh.createWallTimer(ros::WallDuration(0.01), &EncoderNodelet::on_timer, this);
-    server_ = std::make_unique<dynamic_reconfigure::Server<EncoderConfig>>(private_nh);
-    server_->setCallback([this](EncoderConfig& config, std::uint32_t) { on_config(config); });
+    timer_ = nh.createWallTimer(tick(), &EncoderNodelet::on_timer, this);
+    live_ = std::make_unique<LiveOptions>(private_nh, table_of(options_), *health_,
+                                          [this] { return on_change(); });
     subscribe(nh, prefix);
-    if (parameters.param("link_recovery", true)) {
+    if (options_.link_recovery) {
       links_ = RadioLinks::look_after({receipts_.getTopic()});
     }
   }
 
-  // Empty, or what is wrong.
-  std::string make_encoder(const Parameters& parameters) {
-    const Result<FrameCodecOptions> options = read_codec_options(parameters);
-    if (!options) return options.reason();
-    const Result<SendQueueOptions> sending = read_send_options(parameters, robot_);
-    if (!sending) return sending.reason();
-    Result<FrameEncoder> encoder = FrameEncoder::create(*options);
-    if (!encoder) return encoder.reason();
-    options_ = *options;
-    encoder_ = std::make_unique<FrameEncoder>(std::move(*encoder));
-    queue_ = std::make_unique<SendQueue>(*sending);
-    return {};
+  ros::WallDuration tick() const {
+    return ros::WallDuration(options_.sending.bandwidth > 0.0 ? 0.01 : 0.05);
   }
 
   void subscribe(ros::NodeHandle& nh, const std::string& prefix) {
@@ -126,21 +115,15 @@ class EncoderNodelet : public nodelet::Nodelet {
         }));
   }
 
-  void on_config(EncoderConfig& config) {
-    const Result<FrameCodecOptions> options = with_config(options_, config);
-    Result<FrameEncoder> encoder =
-        options ? FrameEncoder::create(*options) : Result<FrameEncoder>(Error{options.reason()});
-    if (!encoder) {
-      health_->warn("reconfiguration", "refused: " + encoder.reason());
-      if (config_) config = *config_;
-      return;
-    }
-    config_ = config;
+  // Live options have changed. Empty, or why they cannot be.
+  std::string on_change() {
+    Result<FrameEncoder> encoder = FrameEncoder::create(options_.codec);
+    if (!encoder) return encoder.reason();
     const std::lock_guard<std::mutex> lock(mutex_);
     next_encoder_ = std::make_unique<FrameEncoder>(std::move(*encoder));
-    queue_->set_rate(config.bandwidth, config.frame_rate);
-    const double tick = config.bandwidth > 0.0 ? 0.01 : 0.05;
-    timer_.setPeriod(ros::WallDuration(tick));
+    queue_->set_rate(options_.sending.bandwidth, options_.sending.frame_rate);
+    timer_.setPeriod(tick());
+    return {};
   }
 
   void on_outgoing(const OutgoingFrameConstPtr& outgoing) {
@@ -305,10 +288,9 @@ class EncoderNodelet : public nodelet::Nodelet {
   }
 
   std::string robot_;
-  FrameCodecOptions options_;
+  EncoderOptions options_;  // the live ones change, in callbacks
   std::unique_ptr<Health> health_;
-  std::optional<EncoderConfig> config_;  // the callbacks'
-  std::mutex mutex_;                     // guards queue_, waiting_, last_ticket_ and next_encoder_
+  std::mutex mutex_;  // guards queue_, waiting_, last_ticket_ and next_encoder_
   std::unique_ptr<SendQueue> queue_;
   std::map<std::uint64_t, OutgoingFrameConstPtr> waiting_;  // by ticket: what queue_ holds
   std::uint64_t last_ticket_ = 0;
@@ -321,7 +303,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   ros::Subscriber receipts_;
   std::vector<ros::Subscriber> subscribers_;
   std::shared_ptr<RadioLinks> links_;
-  std::unique_ptr<dynamic_reconfigure::Server<EncoderConfig>> server_;
+  std::unique_ptr<LiveOptions> live_;
   ros::WallTimer timer_;
   std::unique_ptr<Worker> worker_;
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outgoing frames go into the encoder under test (as a nodelet or a node), and what comes out is
 // decoded again.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rprr_msgs/EncodedFrame.h>
@@ -8,6 +11,8 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "rprr_codec/frame_codec.hpp"
@@ -81,6 +86,20 @@ class Encoder : public ::testing::Test {
     return message;
   }
 
+  // What a text option is after a request to change it.
+  static std::string reconfigured(const std::string& name, const std::string& value) {
+    dynamic_reconfigure::Reconfigure reconfigure;
+    dynamic_reconfigure::StrParameter wanted;
+    wanted.name = name;
+    wanted.value = value;
+    reconfigure.request.config.strs.push_back(wanted);
+    if (!ros::service::call("/encoder/set_parameters", reconfigure)) return "no service";
+    for (const auto& entry : reconfigure.response.config.strs) {
+      if (entry.name == name) return entry.value;
+    }
+    return "no such option";
+  }
+
   ros::NodeHandle nh_;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
@@ -130,17 +149,74 @@ TEST_F(Encoder, ASparseFrameHoldsItsBlocksAndItsMotion) {
   EXPECT_TRUE(synthetic::same(synthetic::only(images->bgr, mask_), synthetic::only(bgr_, mask_)));
 }
 
-TEST_F(Encoder, ASparseFrameHasTheBaseThatIsAskedFor) {
+// As rqt_reconfigure does it.
+TEST_F(Encoder, LiveOptionsAreDescribedAndChanged) {
+  const auto description = ros::topic::waitForMessage<dynamic_reconfigure::ConfigDescription>(
+      "/encoder/parameter_descriptions", ros::Duration(10.0));
+  ASSERT_TRUE(description);
+  ASSERT_EQ(description->groups.size(), 1u);
+  std::set<std::string> names;
+  for (const auto& parameter : description->groups[0].parameters) names.insert(parameter.name);
+  EXPECT_EQ(names, (std::set<std::string>{"bandwidth", "colour_quality", "frame_rate", "objective",
+                                          "sparse_colours"}));
+
+  EXPECT_EQ(reconfigured("objective", "map"), "map");
   publisher_.publish(outgoing(true));
   const auto message = next();
   ASSERT_TRUE(message) << "nothing on /eyebug_b/rprr/encoded";
   const Result<EncodedFrame> frame = parse_encoded_frame(message->data);
   ASSERT_TRUE(frame) << frame.reason();
-  EXPECT_EQ(frame->base_reduction, 4);
-  EXPECT_EQ(frame->base_codec, "webp");
+  EXPECT_EQ(frame->base_reduction, 8);
   const Result<DecodedFrame> images = decoder_.decode(*frame);
   ASSERT_TRUE(images) << images.reason();
-  EXPECT_EQ(images->base.size(), base_size(bgr_.size(), 4));
+  EXPECT_EQ(images->base.size(), base_size(bgr_.size(), 8));
+  EXPECT_EQ(reconfigured("objective", "fixed"), "fixed");
+}
+
+TEST_F(Encoder, LiveOptionsThatAreRefusedChangeNothing) {
+  EXPECT_EQ(reconfigured("objective", "sideways"), "fixed") << "no such word";
+  EXPECT_EQ(reconfigured("sparse_colours", "bytes:3000"), "quality") << "not with objective fixed";
+  EXPECT_EQ(reconfigured("sparse_colours", "much"), "quality");
+  publisher_.publish(outgoing(false));
+  const auto message = next();
+  ASSERT_TRUE(message) << "nothing on /eyebug_b/rprr/encoded";
+  const Result<DecodedFrame> images = decoder_.decode(*parse_encoded_frame(message->data));
+  ASSERT_TRUE(images) << images.reason();
+  EXPECT_TRUE(synthetic::same(images->bgr, bgr_)) << "still lossless";
+}
+
+// The last error that a node tells on /diagnostics.
+std::string told_by(const std::string& robot) {
+  ros::NodeHandle nh;
+  std::string text;
+  const ros::Subscriber subscriber = nh.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 50, [&](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+        for (const auto& status : message->status) {
+          if (status.hardware_id == robot && status.level == 2) text = status.message;
+        }
+      });
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(20.0);
+  while (text.empty() && ros::WallTime::now() < deadline) {
+    ros::WallDuration(0.02).sleep();
+    ros::spinOnce();
+  }
+  return text;
+}
+
+TEST_F(Encoder, WrongParametersAreToldAllAtOnceAndKeepItFromStarting) {
+  EXPECT_EQ(told_by("eyebug_c"),
+            "wrong parameters: unknown parameter 'colour_qualty' (did you mean 'colour_quality'?); "
+            "measure_independent: a number was given (0), allowed: true, false; receipt_timeout: "
+            "-1 is not, allowed: 0 to 3600 s");
+  const std::string impossible = told_by("eyebug_d");
+  EXPECT_NE(impossible.find("colour_quality: quality of pgf is 40, must be 0"), std::string::npos)
+      << impossible;
+  ros::master::V_TopicInfo topics;
+  ASSERT_TRUE(ros::master::getTopics(topics));
+  for (const ros::master::TopicInfo& topic : topics) {
+    EXPECT_NE(topic.name, "/eyebug_c/rprr/encoded");
+    EXPECT_NE(topic.name, "/eyebug_d/rprr/encoded");
+  }
 }
 
 TEST_F(Encoder, CountsKeepTheirUnit) {

@@ -16,6 +16,10 @@ namespace {
 constexpr int kWidth = 324;
 constexpr int kHeight = 242;
 
+SparseColours bytes(std::size_t budget) {
+  return {SparseColours::By::kBytes, static_cast<double>(budget)};
+}
+
 class FramePlan : public ::testing::Test {
  protected:
   FramePlan()
@@ -58,7 +62,6 @@ class FramePlanning : public FramePlan, public ::testing::WithParamInterface<Obj
     FrameCodecOptions options;
     options.colour_codec = "webp";
     options.colour_quality = 40;
-    options.view_quality = 20;
     options.objective = GetParam();
     return options;
   }
@@ -71,7 +74,6 @@ TEST_P(FramePlanning, WhatIsChosenDecodes) {
     FrameCodecOptions options = this->options();
     options.colour_codec = codec;
     options.colour_quality = like_webp(*colour_codec_info(codec), 40);
-    options.view_quality = like_webp(*colour_codec_info(codec), 20);
     const Result<EncodedFrame> parsed = parse_encoded_frame(serialise(encoded(options)));
     ASSERT_TRUE(parsed) << parsed.reason();
     FrameDecoder decoder(make_local_colour_decoder());
@@ -86,12 +88,12 @@ TEST_P(FramePlanning, WhatIsChosenDecodes) {
 
 TEST_P(FramePlanning, ABudgetIsKeptAndUsed) {
   FrameCodecOptions options = this->options();
-  options.byte_budget = 1;
+  options.sparse_colours = bytes(1);
   const std::size_t least = serialise(encoded(options)).size();
   std::size_t last = 0;
   for (const std::size_t more : {50, 500, 1500, 3000, 6000}) {
     const std::size_t budget = least + more;
-    options.byte_budget = budget;
+    options.sparse_colours = bytes(budget);
     const std::size_t bytes = serialise(encoded(options)).size();
     EXPECT_LE(bytes, budget);
     EXPECT_GE(bytes, last) << "more bytes are never worse used";
@@ -101,9 +103,9 @@ TEST_P(FramePlanning, ABudgetIsKeptAndUsed) {
 
 TEST_P(FramePlanning, WithoutRoomTheLeastIsSent) {
   FrameCodecOptions options = this->options();
-  options.byte_budget = 1;
+  options.sparse_colours = bytes(1);
   const EncodedFrame frame = encoded(options);
-  options.byte_budget = 3000;
+  options.sparse_colours = bytes(3000);
   EXPECT_LE(frame.base.size() + frame.colour.size(),
             encoded(options).base.size() + encoded(options).colour.size());
   EXPECT_FALSE(frame.base.empty());
@@ -111,7 +113,7 @@ TEST_P(FramePlanning, WithoutRoomTheLeastIsSent) {
 
 TEST_P(FramePlanning, TheSearchDoesNotDependOnWhereItBegins) {
   FrameCodecOptions options = this->options();
-  options.byte_budget = 4500;
+  options.sparse_colours = bytes(4500);
   Result<FrameEncoder> encoder = FrameEncoder::create(options);
   ASSERT_TRUE(encoder);
   const Bytes cold = serialise(encoded(*encoder));
@@ -192,7 +194,7 @@ TEST_P(FramePlanning, ATargetTakesNoMoreThanItNeeds) {
   std::size_t last = 0;
   for (const double target : {18.0, 22.0, 26.0, 99.0}) {
     FrameCodecOptions options = this->options();
-    options.target_psnr = target;
+    options.sparse_colours = {SparseColours::By::kPsnr, target};
     const EncodedFrame frame = encoded(options);
     const std::size_t bytes = frame.base.size() + frame.colour.size();
     EXPECT_GE(bytes, last);
@@ -216,11 +218,56 @@ TEST_P(FramePlanning, TheNoiseOfTheBaseIsWhatItsDecoderSees) {
   }
 }
 
+// The order of what decides how fine colours are.
+TEST_P(FramePlanning, SparseColoursGoBeforeTheQualityAndTheRadioBeforeBoth) {
+  FrameCodecOptions options = this->options();
+  options.sparse_colours = bytes(1);
+  const std::size_t least = serialise(encoded(options)).size();
+  const std::size_t budget = least + 1500;
+  options.sparse_colours = bytes(budget);
+  options.colour_quality = 5;
+  const EncodedFrame coarse = encoded(options);
+  options.colour_quality = 95;
+  const EncodedFrame fine = encoded(options);
+  EXPECT_EQ(coarse.base, fine.base) << "colour_quality does not matter where bytes are named";
+  EXPECT_EQ(coarse.colour, fine.colour);
+  EXPECT_LE(serialise(fine).size(), budget);
+  Result<FrameEncoder> encoder = FrameEncoder::create(options);
+  ASSERT_TRUE(encoder);
+  EncodedFrame frame = sparse_frame();
+  const std::size_t limit = std::max(least, encoded(options).depth.size() * 5 / 4) + 300;
+  ASSERT_LT(limit, budget);
+  ASSERT_TRUE(encoder->encode_within(depth_, bgr_, frame, limit));
+  EXPECT_LE(serialise(frame).size(), limit);
+}
+
+TEST_F(FramePlan, FixedLayersTakeNoSparseColours) {
+  FrameCodecOptions options;
+  options.objective = Objective::kFixed;
+  EXPECT_TRUE(FrameEncoder::create(options));
+  options.sparse_colours = bytes(3000);
+  const Result<FrameEncoder> encoder = FrameEncoder::create(options);
+  ASSERT_FALSE(encoder);
+  EXPECT_NE(encoder.reason().find("sparse_colours: bytes:3000"), std::string::npos);
+}
+
+TEST_F(FramePlan, AViewIsLikeAWholeImageOfHalfTheQuality) {
+  const ColourCodecInfo webp = *colour_codec_info("webp");
+  FrameCodecOptions options;
+  options.colour_quality = 60;
+  const LayerLadder ladder(Objective::kView, false, webp, 30.0);
+  const EncodedFrame frame = encoded(options);
+  EXPECT_EQ(frame.base_reduction, ladder.at(ladder.usual()).base_reduction);
+  EncodedFrame same = sparse_frame();
+  ASSERT_TRUE(FrameEncoder::create(options)->encode(depth_, bgr_, same, ladder.at(ladder.usual())));
+  EXPECT_EQ(frame.base, same.base);
+}
+
 TEST_F(FramePlan, WithoutDetailOnlyBlocksWithDepthAreNamed) {
   FrameCodecOptions options;
   options.colour_codec = "webp";
   options.objective = Objective::kView;
-  options.view_quality = 90;
+  options.colour_quality = 100;
   const EncodedFrame frame = encoded(options);
   EXPECT_TRUE(frame.colour.empty());
   EXPECT_EQ(frame.mask, sparse_frame().depth_mask);

@@ -171,7 +171,7 @@ class CurvesRun {
     comparison["profile"] = ours_.name;
     comparison["colour_codec"] = ours_.codec.colour_codec;
     comparison["colour_quality"] = ours_.codec.colour_quality;
-    comparison["view_quality"] = ours_.codec.view_quality;
+    comparison["sparse_colours"] = text_of(ours_.codec.sparse_colours);
     comparison["paper_quality"] = paper_.codec.colour_quality;
     json_.write(comparison);
     comparisons_.push_back(comparison);

@@ -61,9 +61,8 @@ ExchangeHarness make_exchange(const Profile& profile, Duration one_way_latency) 
 
 ExchangeHarness make_exchange(const Profile& profile, const std::string& a, const std::string& b,
                               Duration one_way_latency) {
-  const ExchangeOptions options{profile.use_previews, profile.preview, profile.samples};
-  auto reference = std::make_unique<ExchangeStage>(a, options, std::vector<std::string>{b});
-  auto dependent = std::make_unique<ExchangeStage>(b, options, std::vector<std::string>{a});
+  auto reference = std::make_unique<ExchangeStage>(a, profile, std::vector<std::string>{b});
+  auto dependent = std::make_unique<ExchangeStage>(b, profile, std::vector<std::string>{a});
   dependent->set_reference(a, true);
   return {{a, std::move(reference)}, {b, std::move(dependent)}, one_way_latency};
 }

@@ -148,8 +148,9 @@ Result<MethodCurve> CurveMeasurer::budgets_curve(const PreparedPair& pair, Objec
   FrameCodecOptions options = ours_.codec;
   options.objective = objective;
   EncodedFrame before;
-  const auto point_at = [&](std::size_t budget) -> Result<RatePoint> {
-    options.byte_budget = budget;
+  const auto point_for = [&](const SparseColours& colours) -> Result<RatePoint> {
+    const double budget = colours.by == SparseColours::By::kBytes ? colours.amount : 0.0;
+    options.sparse_colours = colours;
     Result<FrameEncoder> encoder = FrameEncoder::create(options);
     if (!encoder) return Error{encoder.reason()};
     Result<EncodedFrame> encoded = PairRunner::encode(pair, *encoder);
@@ -157,17 +158,20 @@ Result<MethodCurve> CurveMeasurer::budgets_curve(const PreparedPair& pair, Objec
     set_usual_times(encoded->report);
     if (!curve.points.empty() && same_payloads(*encoded, before)) {
       RatePoint point = curve.points.back();
-      point.setting = static_cast<double>(budget);
+      point.setting = budget;
       return point;
     }
     before = std::move(*encoded);
-    return rebuilt_point(runner_, pair, before, static_cast<double>(budget), new_content);
+    return rebuilt_point(runner_, pair, before, budget, new_content);
+  };
+  const auto point_at = [&](double budget) {
+    return point_for({SparseColours::By::kBytes, budget});
   };
 
-  Result<RatePoint> point = point_at(ours_.codec.byte_budget);
+  Result<RatePoint> point = point_for(ours_.codec.sparse_colours);
   if (!point) return Error{point.reason()};
   curve.at_profile = *point;
-  point = point_at(1);
+  point = point_at(1.0);
   if (!point) return Error{point.reason()};
   // Budgets count the container; what goes around it is the same for all.
   const auto least = static_cast<double>(point->bytes);
@@ -179,7 +183,7 @@ Result<MethodCurve> CurveMeasurer::budgets_curve(const PreparedPair& pair, Objec
   curve.points.push_back(std::move(*point));
   for (int i = 1; i < budgets_; ++i) {
     const double total = base + (least - base) * std::pow(range, i / (budgets_ - 1.0));
-    point = point_at(static_cast<std::size_t>(std::max(1.0, std::round(total - around))));
+    point = point_at(std::max(1.0, std::round(total - around)));
     if (!point) return Error{point.reason()};
     curve.points.push_back(std::move(*point));
   }

@@ -50,17 +50,12 @@ bool received_depth_is_exact(const RebuiltFrame& rebuilt, const DepthFrame& trut
 struct PairRunner::Robots {
   Robots(const Profile& profile, FrameEncoder frame_encoder)
       : exchange(make_exchange(profile, kA, kB, kLatency)),
-        a(kA, redundancy_options(profile)),
-        b(kB, redundancy_options(profile)),
+        a(kA, profile),
+        b(kB, profile),
         encoder(std::move(frame_encoder)),
         independent_decoder(make_local_colour_decoder()),
         station(station_options(profile.station), make_isolated_colour_decoder()) {}
 
-  static RedundancyOptions redundancy_options(const Profile& profile) {
-    RedundancyOptions options;
-    options.validation = profile.validation;
-    return options;
-  }
   static StationOptions station_options(StationOptions options) {
     options.robots = {kA, kB};
     return options;

@@ -24,8 +24,11 @@ RgbdFramePtr frame_of(const WalkFrame& seen, Stamp stamp, const std::string& rob
 }
 
 ExchangeHarness samples_harness(Duration latency = kLatency) {
-  return {{"a", make_samples_reference("a", "b", {})},
-          {"b", make_samples_dependent("b", "a", {})},
+  SamplesOptions options;
+  options.max_iterations = 50;
+  options.step_timeout = from_seconds(0.5);
+  return {{"a", make_samples_reference("a", "b", options)},
+          {"b", make_samples_dependent("b", "a", options)},
           latency};
 }
 

@@ -19,6 +19,7 @@ ExchangeSurvey survey_at(const RoomViews& views, const Profile& profile, double 
 Profile samples_profile() {
   Profile profile;
   profile.use_previews = false;
+  profile.samples.max_iterations = 50;
   return profile;
 }
 

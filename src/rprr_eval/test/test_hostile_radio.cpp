@@ -184,10 +184,15 @@ struct Roles {
 };
 
 Roles preview_roles() {
-  return {make_preview_reference("a", "b", {}), make_preview_dependent("b", "a", {})};
+  PreviewOptions options;
+  options.reference_age = 0;
+  return {make_preview_reference("a", "b", options), make_preview_dependent("b", "a", options)};
 }
 Roles samples_roles() {
-  return {make_samples_reference("a", "b", {}), make_samples_dependent("b", "a", {})};
+  SamplesOptions options;
+  options.max_iterations = 50;
+  options.step_timeout = from_seconds(0.5);
+  return {make_samples_reference("a", "b", options), make_samples_dependent("b", "a", options)};
 }
 
 // Both roles; what they say may be changed on the way, and is kept.

@@ -7,6 +7,10 @@
 #include <fstream>
 #include <set>
 
+#include "rprr_geometry/option_text.hpp"
+#include "rprr_geometry/profile_keys.hpp"
+#include "rprr_ros/rgbd_subscriber.hpp"
+#include "rprr_synthetic/option_check.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 
 namespace rprr {
@@ -48,38 +52,60 @@ TEST_F(ProfileTest, BothShippedOnesLoadByTheirNames) {
   EXPECT_EQ(paper->station.synthesis.mode, Synthesis::kForward);
   EXPECT_EQ(paper->station.stitch.fill, UnknownFill::kBlack);
   EXPECT_EQ(paper->codec.fill, UnsentFill::kBlack);
+  EXPECT_EQ(paper->codec.colour_codec, "pgf");
+  EXPECT_EQ(paper->codec.colour_quality, 6);
+  EXPECT_EQ(paper->sending.receipt_timeout, 0);
 }
 
 TEST_F(ProfileTest, ByPathTheyAreTheSame) {
-  const auto by_name = load_profile("default");
-  const auto by_path = load_profile(kShipped + "/default.yaml");
+  auto by_name = load_profile("paper");
+  auto by_path = load_profile(kShipped + "/paper.yaml");
   ASSERT_TRUE(by_name && by_path) << by_path.reason();
-  EXPECT_EQ(by_name->codec.colour_quality, by_path->codec.colour_quality);
-  EXPECT_EQ(by_name->samples.limits.min_matched, by_path->samples.limits.min_matched);
+  EXPECT_EQ(values_of(options_of(*by_name)), values_of(options_of(*by_path)));
 }
 
-// Whether the loader reads a key shows in its complaint about a value that no key can have.
-TEST_F(ProfileTest, EveryKeyOfTheShippedOnesIsRead) {
-  for (const char* name : {"default", "paper"}) {
-    for (const std::string& key : keys_of(kShipped + "/" + name + ".yaml")) {
-      const std::string wrong = complaint(key + ": [not, a, value]\n");
-      EXPECT_NE(wrong.find(key), std::string::npos) << "rprr_eval does not read " << key << " of "
-                                                    << name << ".yaml; it says '" << wrong << "'";
-      EXPECT_NE(wrong.find("test.yaml"), std::string::npos) << wrong;
-    }
+// So a node without a profile runs profile default.
+TEST_F(ProfileTest, DefaultIsWhatTheStructsHave) {
+  auto best = load_profile("default");
+  ASSERT_TRUE(best) << best.reason();
+  const OptionTable table = options_of(*best);
+  for (const Option& option : table.options())
+    EXPECT_EQ(option.get(), option.initial) << option.name;
+}
+
+TEST_F(ProfileTest, PaperSaysNothingButWhatDiffers) {
+  auto paper = load_profile("paper");
+  ASSERT_TRUE(paper) << paper.reason();
+  const OptionTable table = options_of(*paper);
+  for (const std::string& key : keys_of(kShipped + "/paper.yaml")) {
+    ASSERT_NE(table.find(key), nullptr) << key;
+    EXPECT_NE(table.find(key)->get(), table.find(key)->initial) << key;
   }
 }
 
-// What one says and the other does not could only be of the protocol that the other does not speak.
-TEST_F(ProfileTest, ShippedOnesDifferInKeysOfThePreviewProtocolAlone) {
-  const std::set<std::string> best = keys_of(kShipped + "/default.yaml");
-  const std::set<std::string> paper = keys_of(kShipped + "/paper.yaml");
-  for (const std::string& key : paper) EXPECT_TRUE(best.count(key)) << key << " only in paper.yaml";
-  for (const std::string& key : best) {
-    const bool of_previews =
-        key.rfind("preview_", 0) == 0 || key.rfind("search_", 0) == 0 || key == "reference_age";
-    EXPECT_TRUE(of_previews || paper.count(key)) << key << " only in default.yaml";
+TEST_F(ProfileTest, ItsTableHoldsWhatHoldsForEveryTable) {
+  Profile profile;
+  check_options(options_of(profile));
+}
+
+// Of all nodes into which launch files load a profile. All four have link_recovery; the table of
+// one of them says so for all.
+TEST(ProfileKeys, AreThoseOfAllTables) {
+  Profile profile;
+  ExchangeNodeOptions exchange;
+  InputOptions input;
+  StationOutputOptions output;
+  OptionTable all = options_of(profile);
+  all.append(options_of(exchange));
+  all.append(options_of(input));
+  all.append(options_of(output));
+  std::set<std::string> wanted;
+  for (const Option& option : all.options()) {
+    if (option.wiring) continue;
+    EXPECT_TRUE(wanted.insert(option.name).second) << option.name << " is in two tables";
   }
+  const std::set<std::string> listed(profile_keys().begin(), profile_keys().end());
+  EXPECT_EQ(listed, wanted) << "mend rprr_geometry/src/profile_keys.cpp";
 }
 
 TEST_F(ProfileTest, MissingKeysKeepTheirDefaults) {
@@ -90,15 +116,52 @@ TEST_F(ProfileTest, MissingKeysKeepTheirDefaults) {
   EXPECT_EQ(profile->codec.colour_codec, FrameCodecOptions().colour_codec);
 }
 
-TEST_F(ProfileTest, BadWordsNameTheFileTheKeyAndWhatIsAllowed) {
-  for (const char* key : {"unsent_fill", "synthesis", "unknown_fill"}) {
+TEST_F(ProfileTest, ParametersOfNodesAloneMayStandInIt) {
+  EXPECT_EQ(complaint("cloud_points: 1000\npublish_tf: false\ndepth_unit: 0.001\n"), "");
+}
+
+TEST_F(ProfileTest, MisspeltNamesAreRefused) {
+  const std::string wrong = complaint("previw_step: 0.003\n");
+  EXPECT_NE(wrong.find("test.yaml"), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("unknown parameter 'previw_step' (did you mean 'preview_step'?)"),
+            std::string::npos)
+      << wrong;
+  EXPECT_NE(complaint("robot: eyebug_a\n"), "") << "a profile does not say who a node is";
+  EXPECT_NE(complaint("robots: [eyebug_a]\n"), "");
+}
+
+TEST_F(ProfileTest, OtherKindsAreRefusedAsTheyAreByANode) {
+  for (const char* text :
+       {"resample: 0\n", "resample: \"false\"\n", "max_iterations: many\n",
+        "max_iterations: 20.0\n", "max_iterations: \"20\"\n", "preview_step: [0.003]\n",
+        "preview_step: 3e-3\n", "preview_step:\n", "colour_codec: 5\n", "in_flight: {a: 1}\n"}) {
+    const std::string wrong = complaint(text);
+    const std::string key(text, std::string(text).find(':'));
+    EXPECT_NE(wrong.find(key + ": "), std::string::npos) << text << " says '" << wrong << "'";
+    EXPECT_NE(wrong.find("allowed: "), std::string::npos) << wrong;
+  }
+  EXPECT_EQ(complaint("resample: yes\nreceipt_timeout: 2\npreview_step: 3.0e-3\n"), "");
+}
+
+TEST_F(ProfileTest, BadValuesNameTheFileTheKeyAndWhatIsAllowed) {
+  for (const char* key : {"unsent_fill", "synthesis", "unknown_fill", "protocol", "objective"}) {
     const std::string wrong = complaint(std::string(key) + ": sideways\n");
-    for (const char* part : {"test.yaml", key, "sideways", "nor"}) {
+    for (const char* part : {"test.yaml", key, "sideways", "allowed: "}) {
       EXPECT_NE(wrong.find(part), std::string::npos) << "'" << part << "' is not in: " << wrong;
     }
   }
-  const std::string wrong = complaint("max_iterations: many\n");
-  EXPECT_NE(wrong.find("max_iterations"), std::string::npos) << wrong;
+  const std::string wrong = complaint("preview_step: 0.5\nmax_iterations: 0\n");
+  EXPECT_NE(wrong.find("max_iterations: 0 is not, allowed: 1 to 250"), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("preview_step: 0.5 is not, allowed: 0.0005 to 0.05 1/m"), std::string::npos)
+      << wrong;
+}
+
+TEST_F(ProfileTest, AQualityThatTheCodecHasNotIsRefused) {
+  const std::string wrong = complaint("colour_codec: pgf\n");
+  EXPECT_NE(wrong.find("colour_quality: quality of pgf is 40"), std::string::npos) << wrong;
+  EXPECT_EQ(complaint("colour_codec: pgf\ncolour_quality: 6\n"), "");
+  EXPECT_NE(complaint("objective: fixed\nsparse_colours: \"bytes:3000\"\n"), "");
+  EXPECT_EQ(complaint("objective: map\nsparse_colours: bytes:3000\n"), "");
 }
 
 TEST_F(ProfileTest, FilesThatAreNoProfileAreRefused) {

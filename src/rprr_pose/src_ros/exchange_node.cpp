@@ -53,8 +53,8 @@ double age_of(Stamp stamp) {
 }  // namespace
 
 ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                           const ExchangeNodeOptions& options, std::unique_ptr<ExchangeStage> stage,
-                           Observer observer)
+                           const ExchangeNodeOptions& options, const InputOptions& input,
+                           std::unique_ptr<ExchangeStage> stage, Observer observer)
     : nh_(nh),
       options_(options),
       health_(nh, private_nh, "exchange", options.robot),
@@ -73,7 +73,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
       nh_.subscribe("/" + options_.robot + "/rprr/radio", 4, &ExchangeNode::on_radio, this));
   service_ = private_nh.advertiseService("set_reference", &ExchangeNode::on_set_reference, this);
   input_ = std::make_unique<RgbdSubscriber>(
-      nh_, private_nh, options_.robot, health_, [this](const RgbdFramePtr& frame) {
+      nh_, private_nh, options_.robot, input, health_, [this](const RgbdFramePtr& frame) {
         worker_->post([this, frame] {
           motion_.see(frame);
           drive({}, [&](RoleOutput& out) { stage_->offer(frame, steady_now(), out); });
@@ -83,7 +83,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
 
 void ExchangeNode::advertise() {
   const std::string prefix = "/" + options_.robot + "/rprr/";
-  if (options_.use_previews) {
+  if (stage_->uses_previews()) {
     preview_ = nh_.advertise<rprr_msgs::BlockPreview>(prefix + "preview", 10);
   } else {
     samples_ = nh_.advertise<rprr_msgs::SamplePoints>(prefix + "samples", 10);
@@ -96,7 +96,7 @@ void ExchangeNode::advertise() {
 // Of every peer everything, whatever its role is now: a role that changes finds its topics
 // connected.
 void ExchangeNode::subscribe(const std::string& peer) {
-  if (options_.use_previews) {
+  if (stage_->uses_previews()) {
     listen<rprr_msgs::BlockPreview>(peer, "preview");
   } else {
     listen<rprr_msgs::SamplePoints>(peer, "samples");

@@ -17,6 +17,7 @@
 #include "clock_comparison.hpp"
 #include "motion_report.hpp"
 #include "rprr_pose/exchange_stage.hpp"
+#include "rprr_pose/pose_options.hpp"
 #include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_ros/health.hpp"
 #include "rprr_ros/rgbd_subscriber.hpp"
@@ -24,15 +25,6 @@
 #include "rprr_ros/worker.hpp"
 
 namespace rprr {
-
-struct ExchangeNodeOptions {
-  std::string robot;
-  std::vector<std::string> peers;       ///< robots to exchange with
-  std::vector<std::string> references;  ///< of these, the ones that are referred to at first
-  bool use_previews = true;             ///< which protocol's topics there are
-  double stale_overlap = 0.7;           ///< of MotionReport
-  bool link_recovery = true;            ///< RadioLinks look after the peers' topics
-};
 
 /// Ties the pose stage of a robot to topics. The stage belongs to the worker thread: callbacks only
 /// hand over what came.
@@ -42,7 +34,7 @@ class ExchangeNode {
   using Observer = std::function<void(const FrameDecision&, Health&)>;
 
   ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh, const ExchangeNodeOptions& options,
-               std::unique_ptr<ExchangeStage> stage, Observer observer);
+               const InputOptions& input, std::unique_ptr<ExchangeStage> stage, Observer observer);
 
  private:
   void advertise();

@@ -3,7 +3,6 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
@@ -21,26 +20,25 @@ namespace rprr {
 class ExchangeNodelet : public nodelet::Nodelet {
   void onInit() override {
     const ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const Parameters parameters(private_nh);
-    const ExchangeNodeOptions options = read_node_options(parameters);
-    const std::string wrong = problem_of(options);
+    ExchangeParameters parameters;
+    const std::string wrong = read_exchange_parameters(private_nh, parameters);
+    const ExchangeNodeOptions& options = parameters.node;
     if (!wrong.empty()) {
-      NODELET_FATAL_STREAM(wrong << "; nothing is exchanged until this is mended and restarted");
-      return;
+      refusal_ = std::make_unique<Health>(getNodeHandle(), private_nh, "exchange", options.robot);
+      return refusal_->refuse_parameters(wrong);
     }
-    if (PoseBroadcaster::publishes_root(parameters) ||
-        (options.use_previews && parameters.param("tf_prior", true))) {
+    const bool uses_prior = parameters.exchange.use_previews && options.tf_prior;
+    if (options.publishes_root() || uses_prior) {
       listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
     }
-    broadcaster_ = std::make_unique<PoseBroadcaster>(parameters, &buffer_);
+    broadcaster_ = std::make_unique<PoseBroadcaster>(options, &buffer_);
     for (const std::string& peer : options.peers) {
-      const auto tf = read_tf_prior_options(parameters, options.robot, peer);
-      if (tf && options.use_previews) priors_[peer] = std::make_unique<TfPrior>(buffer_, *tf);
+      const auto tf = tf_prior_options(options, peer);
+      if (tf && uses_prior) priors_[peer] = std::make_unique<TfPrior>(buffer_, *tf);
     }
     node_ = std::make_unique<ExchangeNode>(
-        getNodeHandle(), private_nh, options,
-        std::make_unique<ExchangeStage>(options.robot, read_exchange_options(parameters),
-                                        options.peers, prior()),
+        getNodeHandle(), private_nh, options, parameters.input,
+        std::make_unique<ExchangeStage>(options.robot, parameters.exchange, options.peers, prior()),
         [this](const FrameDecision& decision, Health& health) { on_decision(decision, health); });
   }
 
@@ -64,7 +62,8 @@ class ExchangeNodelet : public nodelet::Nodelet {
     if (!complaint.empty()) health.warn("tf prior of " + decision.peer, complaint);
   }
 
-  tf2_ros::Buffer buffer_;  // stays empty without a listener
+  std::unique_ptr<Health> refusal_;  // null: the parameters are in order
+  tf2_ros::Buffer buffer_;           // stays empty without a listener
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   std::unique_ptr<PoseBroadcaster> broadcaster_;
   std::map<std::string, std::unique_ptr<TfPrior>> priors_;  // by peer; the worker's thread

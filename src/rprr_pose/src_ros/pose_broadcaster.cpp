@@ -25,15 +25,8 @@ std::string root_of(const tf2::BufferCore& buffer, const std::string& frame,
   return root;
 }
 
-PoseBroadcaster::PoseBroadcaster(const Parameters& parameters, const tf2::BufferCore* buffer)
-    : publish_(parameters.param("publish_tf", true)),
-      root_(publishes_root(parameters)),
-      buffer_(buffer) {
-}
-
-bool PoseBroadcaster::publishes_root(const Parameters& parameters) {
-  return parameters.param("publish_tf", true) &&
-         parameters.param<std::string>("tf_target", "own") == "root";
+PoseBroadcaster::PoseBroadcaster(const ExchangeNodeOptions& options, const tf2::BufferCore* buffer)
+    : publish_(options.publish_tf), root_(options.publishes_root()), buffer_(buffer) {
 }
 
 void PoseBroadcaster::send(const RelativePoseMessage& pose, Health& health) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ros/node_handle.h>
 #include <tf2/buffer_core.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <string>
 
 #include "rprr_pose/messages.hpp"
+#include "rprr_pose/pose_options.hpp"
 #include "rprr_ros/health.hpp"
-#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 
@@ -23,9 +22,8 @@ std::string root_of(const tf2::BufferCore& buffer, const std::string& frame,
 /// that both robots hang together. tf2 stores b's pose in a, the inverse of M_ab.
 class PoseBroadcaster {
  public:
-  /// buffer: needed, and must outlive this, if publishes_root().
-  PoseBroadcaster(const Parameters& parameters, const tf2::BufferCore* buffer);
-  static bool publishes_root(const Parameters& parameters);
+  /// buffer: needed, and must outlive this, if options.publishes_root().
+  PoseBroadcaster(const ExchangeNodeOptions& options, const tf2::BufferCore* buffer);
   /// health hears of missing tf.
   void send(const RelativePoseMessage& pose, Health& health);
 

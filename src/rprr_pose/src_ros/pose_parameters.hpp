@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <optional>
 #include <string>
 
-#include "exchange_node.hpp"
-#include "rprr_pose/exchange_stage.hpp"
-#include "rprr_ros/parameters.hpp"
+#include "rprr_geometry/option_table.hpp"
+#include "rprr_pose/pose_options.hpp"
+#include "rprr_ros/rgbd_subscriber.hpp"
 #include "tf_prior.hpp"
 
 namespace rprr {
 
-/// Names, roles and protocol from the private parameters of config/pose.yaml.
-ExchangeNodeOptions read_node_options(const Parameters& parameters);
+struct ExchangeParameters {
+  ExchangeNodeOptions node;
+  ExchangeOptions exchange;
+  InputOptions input;
+};
 
-/// Empty, or which names make no sense.
-std::string problem_of(const ExchangeNodeOptions& options);
+/// All private parameters of the exchange's node: config/pose.yaml.
+OptionTable table_of(ExchangeParameters& parameters);
 
-/// The settings of both protocols. Exchanges are numbered from the clock.
-ExchangeOptions read_exchange_options(const Parameters& parameters);
+/// Reads them, and numbers exchanges from the clock. Empty, or what is wrong.
+std::string read_exchange_parameters(const ros::NodeHandle& private_nh,
+                                     ExchangeParameters& parameters);
 
-/// What tf may propose to `robot` as first poses towards `peer`; none if ~tf_prior is false.
-std::optional<TfPriorOptions> read_tf_prior_options(const Parameters& parameters,
-                                                    const std::string& robot,
-                                                    const std::string& peer);
+/// What tf may propose as first poses towards `peer`; none if ~tf_prior is false.
+std::optional<TfPriorOptions> tf_prior_options(const ExchangeNodeOptions& options,
+                                               const std::string& peer);
 
 }  // namespace rprr

@@ -94,9 +94,14 @@ class Team {
 
 using Peers = std::multimap<Stamp, std::string>;
 
+// A reference refers to frames near in time alone, and the paper's number of iterations leaves room
+// for every start.
 ExchangeOptions protocol(bool previews) {
   ExchangeOptions options;
   options.use_previews = previews;
+  options.preview.reference_age = 0;
+  options.samples.max_iterations = 50;
+  options.samples.step_timeout = from_seconds(0.5);
   return options;
 }
 

@@ -14,10 +14,17 @@ namespace {
 const Pose kTruth = test_motion(0.12, 6.0);
 const Pose kElsewhere = test_motion(1.5, 100.0);
 
+// Options of a reference that refers to frames near in time alone.
+PreviewOptions near_in_time() {
+  PreviewOptions options;
+  options.reference_age = 0;
+  return options;
+}
+
 class MotionPriorTest : public ::testing::Test {
  protected:
   MotionPriorTest() : dependent(make_preview_dependent("b", "a", {})) {
-    reference = make_preview_reference("a", "b", {},
+    reference = make_preview_reference("a", "b", near_in_time(),
                                        [this](const std::string& peer, const FrameNames& now,
                                               const std::optional<KnownMotion>& known) {
                                          asked_peer = peer;
@@ -77,7 +84,7 @@ TEST_F(MotionPriorTest, AWrongProposalDoesNoHarm) {
 }
 
 TEST_F(MotionPriorTest, WithoutEvidenceToSpareTheSearchDecides) {
-  PreviewOptions options;
+  PreviewOptions options = near_in_time();
   options.search.limits.warm_evidence = 100.0;  // more than there can be
   reference = make_preview_reference(
       "a", "b", options,

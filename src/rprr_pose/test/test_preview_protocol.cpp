@@ -13,7 +13,13 @@
 namespace rprr {
 namespace {
 
-std::unique_ptr<ExchangeRole> reference_of(const PreviewOptions& options = {}) {
+// Options of a reference that refers to frames near in time alone, whatever its radio does.
+PreviewOptions near_in_time() {
+  PreviewOptions options;
+  options.reference_age = 0;
+  return options;
+}
+std::unique_ptr<ExchangeRole> reference_of(const PreviewOptions& options = near_in_time()) {
   return make_preview_reference("a", "b", options);
 }
 std::unique_ptr<ExchangeRole> dependent_of(const PreviewOptions& options = {}) {

@@ -17,6 +17,15 @@ namespace {
 
 constexpr Duration kMillisecond = 1000000;
 
+// The channel takes milliseconds, so half a second is a long silence. The paper's number of
+// iterations leaves room for starts from the identity.
+SamplesOptions options_of_tests() {
+  SamplesOptions options;
+  options.max_iterations = 50;
+  options.step_timeout = 500 * kMillisecond;
+  return options;
+}
+
 // Two roles on a channel that a test may disturb: each message may be passed, dropped, doubled or
 // replaced.
 class Pair {
@@ -24,7 +33,7 @@ class Pair {
   using Channel = std::function<std::vector<PoseMessage>(const PoseMessage&, bool from_reference)>;
 
   explicit Pair(const std::function<void(SamplesOptions&)>& change = [](SamplesOptions&) {}) {
-    SamplesOptions options;
+    SamplesOptions options = options_of_tests();
     change(options);
     reference = make_samples_reference("a", "b", options);
     dependent = make_samples_dependent("b", "a", options);
@@ -256,7 +265,7 @@ TEST(SamplesProtocol, ASilentDependentTimesOut) {
   EXPECT_EQ(verdict.status, PoseStatus::kTimedOut) << describe(verdict);
   EXPECT_EQ(verdict.quantity, PoseQuantity::kSilence);
   EXPECT_GE(verdict.measured, verdict.needed);
-  EXPECT_FLOAT_EQ(verdict.needed, static_cast<float>(to_seconds(SamplesOptions().step_timeout)));
+  EXPECT_FLOAT_EQ(verdict.needed, static_cast<float>(to_seconds(options_of_tests().step_timeout)));
 }
 
 TEST(SamplesProtocol, BsFrameMayComeAfterAsPoints) {
@@ -325,7 +334,7 @@ TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
   Pair pair;
   pair.offer(frame_a(1000), frame_b(1000));
   pair.run(from_seconds(0.4));
-  SamplesOptions options;
+  SamplesOptions options = options_of_tests();
   options.first_exchange = 5000;
   pair.reference = make_samples_reference("a", "b", options);
   for (const Stamp stamp : {2000, 3000}) {  // the first tells b that its camera is unknown again

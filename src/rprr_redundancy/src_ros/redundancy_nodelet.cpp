@@ -2,7 +2,6 @@
 #include <nodelet/nodelet.h>
 #include <rprr_msgs/BlockMask.h>
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
@@ -43,15 +42,13 @@ class RedundancyNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const Parameters parameters(private_nh);
-    robot_ = parameters.param<std::string>("robot", "");
-    const auto peers = parameters.param("peers", std::vector<std::string>());
-    if (robot_.empty() || std::find(peers.begin(), peers.end(), robot_) != peers.end()) {
-      NODELET_FATAL("~robot must name this robot, and ~peers others");
-      return;
-    }
-    stage_ = std::make_unique<Redundancy>(robot_, read_options(parameters));
+    RedundancyWiring wiring;
+    RedundancyOptions options;
+    const std::string wrong = read_options(private_nh, wiring, options);
+    robot_ = wiring.robot;
     health_ = std::make_unique<Health>(nh, private_nh, "redundancy", robot_);
+    if (!wrong.empty()) return health_->refuse_parameters(wrong);
+    stage_ = std::make_unique<Redundancy>(robot_, options);
     pictures_ = std::make_unique<Pictures>(nh, robot_);
     const std::string prefix = "/" + robot_ + "/rprr/";
     outgoing_ = nh.advertise<OutgoingFrame>(prefix + "outgoing", 8);
@@ -60,18 +57,20 @@ class RedundancyNodelet : public nodelet::Nodelet {
     subscribers_.push_back(
         nh.subscribe(prefix + "exchange", 16, &RedundancyNodelet::on_decision, this));
     std::vector<std::string> radio_topics;
-    for (const std::string& peer : peers) radio_topics.push_back(subscribe(nh, peer));
-    if (parameters.param("link_recovery", true)) links_ = RadioLinks::look_after(radio_topics);
+    for (const std::string& peer : wiring.peers) radio_topics.push_back(subscribe(nh, peer));
+    if (wiring.link_recovery) links_ = RadioLinks::look_after(radio_topics);
     timer_ = nh.createWallTimer(kTick, [this](const ros::WallTimerEvent&) {
       post([this](RedundancyOutput& out) { stage_->tick(steady_now(), out); });
     });
   }
 
-  static RedundancyOptions read_options(const Parameters& parameters) {
-    RedundancyOptions options;
-    options.outgoing.prediction_timeout = from_seconds(parameters.param("prediction_timeout", 1.0));
-    options.validation.min_pixels = std::max(parameters.param("validation_min_pixels", 1), 1);
-    return options;
+  // Empty, or what is wrong.
+  static std::string read_options(const ros::NodeHandle& private_nh, RedundancyWiring& wiring,
+                                  RedundancyOptions& options) {
+    OptionTable table = options_of(wiring);
+    table.append(options_of(options));
+    const std::string wrong = read_parameters(private_nh, table);
+    return wrong.empty() ? problem_of(wiring) : wrong;
   }
 
   // The topic's full name.

@@ -25,6 +25,18 @@ void Health::error(const std::string& key, const std::string& text) {
   report(key, text, true);
 }
 
+void Health::refuse_parameters(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Problem& problem = problems_["parameters"];
+  problem.is_error = true;
+  problem.lasts = true;
+  problem.text = "wrong parameters: " + text;
+  problem.times = 1;
+  ROS_FATAL_STREAM_NAMED(name_, name_ << ": " << problem.text
+                                      << ". It does nothing until they are mended and it is "
+                                         "started again.");
+}
+
 void Health::report(const std::string& key, const std::string& text, bool is_error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   Problem& problem = problems_[key];
@@ -58,7 +70,7 @@ void Health::fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
   for (const auto& [key, problem] : problems_) {
     status.add(key + " (times)", problem.times);
-    if ((now - problem.last).toSec() > kShownFor) continue;
+    if (!problem.lasts && (now - problem.last).toSec() > kShownFor) continue;
     status.mergeSummary(problem.is_error ? diagnostic_msgs::DiagnosticStatus::ERROR
                                          : diagnostic_msgs::DiagnosticStatus::WARN,
                         problem.text);

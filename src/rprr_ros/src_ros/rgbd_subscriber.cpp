@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "rprr_ros/conversions.hpp"
-#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 namespace {
@@ -47,16 +46,25 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
+void list_options(InputOptions& o, OptionTable& table) {
+  table.group("This robot's camera");
+  table.number("max_stamp_difference", o.max_stamp_difference, {0.0, 1.0}, "s",
+               "How far apart the stamps of a colour and a depth image of one frame may be");
+  table.number("depth_unit", o.depth_unit, {0.00001, 0.1}, "m",
+               "Depth that a count stands for, into which 32FC1 depth is quantised: 0.0002 is "
+               "exact for freiburg bags; 16UC1 depth is never rounded");
+  table.text("image_transport", o.image_transport, "Transport of the camera's images")
+      .only_if([](const OptionValue& value) { return !std::get<std::string>(value).empty(); },
+               "raw or another transport of image_transport");
+}
+
 RgbdSubscriber::RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                               const std::string& robot, Health& health, Callback callback)
-    : health_(health), callback_(std::move(callback)), transport_(nh) {
-  const Parameters parameters(private_nh);
-  max_stamp_difference_ = parameters.param("max_stamp_difference", 0.02);
-  depth_unit_ = parameters.param("depth_unit", 0.0002);
+                               const std::string& robot, const InputOptions& options,
+                               Health& health, Callback callback)
+    : health_(health), callback_(std::move(callback)), options_(options), transport_(nh) {
   const std::string camera = "/" + robot + "/camera/";
-  const image_transport::TransportHints hints(
-      parameters.param<std::string>("image_transport", "raw"), ros::TransportHints().tcpNoDelay(),
-      private_nh);
+  const image_transport::TransportHints hints(options_.image_transport,
+                                              ros::TransportHints().tcpNoDelay(), private_nh);
   info_subscriber_ = nh.subscribe(camera + "rgb/camera_info", 5, &RgbdSubscriber::on_info, this);
   rgb_subscriber_ = transport_.subscribe(camera + "rgb/image_rect_color", 5,
                                          &RgbdSubscriber::on_rgb, this, hints);
@@ -75,7 +83,7 @@ void RgbdSubscriber::on_rgb(const sensor_msgs::ImageConstPtr& image) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++rgb_seen_;
-    depth = take_nearest(waiting_depth_, image->header.stamp, max_stamp_difference_);
+    depth = take_nearest(waiting_depth_, image->header.stamp, options_.max_stamp_difference);
     if (!depth) return keep(waiting_rgb_, image);
   }
   emit(image, depth);
@@ -86,7 +94,7 @@ void RgbdSubscriber::on_depth(const sensor_msgs::ImageConstPtr& image) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++depth_seen_;
-    rgb = take_nearest(waiting_rgb_, image->header.stamp, max_stamp_difference_);
+    rgb = take_nearest(waiting_rgb_, image->header.stamp, options_.max_stamp_difference);
     if (!rgb) return keep(waiting_depth_, image);
   }
   emit(rgb, image);
@@ -128,7 +136,7 @@ void RgbdSubscriber::emit(const sensor_msgs::ImageConstPtr& rgb,
   }
   const Result<cv::Mat> bgr = bgr_from_image(*rgb);
   if (!bgr) return health_.error("colour unusable", rgb_topic + ": " + bgr.reason());
-  const Result<DepthFrame> counts = depth_from_image(*depth, depth_unit_);
+  const Result<DepthFrame> counts = depth_from_image(*depth, options_.depth_unit);
   if (!counts) return health_.error("depth unusable", depth_topic + ": " + counts.reason());
   if (cv::countNonZero(counts->counts) == 0) {  // goes on: the colour is worth sending
     health_.warn("depth empty", depth_topic +

@@ -53,35 +53,15 @@ bool same(const sensor_msgs::CameraInfo& one, const sensor_msgs::CameraInfo& two
 
 }  // namespace
 
-CameraCalibration::CameraCalibration(const ros::NodeHandle& camera_nh,
-                                     const ros::NodeHandle& private_nh, Health& health)
+CameraCalibration::CameraCalibration(const ros::NodeHandle& camera_nh, const CameraOptions& options,
+                                     Health& health)
     : health_(health),
-      colour_url_(private_nh.param("camera_info_url", std::string())),
-      depth_url_(private_nh.param("depth_info_url", std::string())),
+      colour_url_(options.camera_info_url),
+      depth_url_(options.depth_info_url),
       colour_(ros::NodeHandle(camera_nh, "rgb"), "rgb_camera", colour_url_),
-      depth_(ros::NodeHandle(camera_nh, "depth"), "depth_camera", depth_url_) {
-  disparity_.offset = private_nh.param("disparity_offset", disparity_.offset);
-  disparity_.step = private_nh.param("disparity_step", disparity_.step);
-  read_pose(private_nh);
-}
-
-void CameraCalibration::read_pose(const ros::NodeHandle& nh) {
-  std::vector<double> t = {-0.025, 0.0, 0.0};
-  std::vector<double> r = {0.0, 0.0, 0.0};
-  nh.getParam("depth_to_colour_translation", t);
-  nh.getParam("depth_to_colour_rotation", r);
-  if (t.size() != 3 || r.size() != 3) {
-    health_.error("pose",
-                  "~depth_to_colour_translation and ~depth_to_colour_rotation need three "
-                  "numbers each (metres; roll, pitch, yaw in radians); taking zeros");
-    t.assign(3, 0.0);
-    r.assign(3, 0.0);
-  }
-  colour_from_depth_.translation() = Eigen::Vector3d(t[0], t[1], t[2]);
-  colour_from_depth_.linear() = (Eigen::AngleAxisd(r[2], Eigen::Vector3d::UnitZ()) *
-                                 Eigen::AngleAxisd(r[1], Eigen::Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(r[0], Eigen::Vector3d::UnitX()))
-                                    .toRotationMatrix();
+      depth_(ros::NodeHandle(camera_nh, "depth"), "depth_camera", depth_url_),
+      colour_from_depth_(colour_from_depth(options)),
+      disparity_(options.disparity) {
 }
 
 void CameraCalibration::load(const std::string& serial) {

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "camera_options.hpp"
 #include "rprr_ros/health.hpp"
 #include "rprr_sensor/pair_processor.hpp"
 
@@ -16,10 +17,8 @@ namespace rprr {
 /// while it runs (services rgb/set_camera_info and depth/set_camera_info in the namespace given).
 class CameraCalibration {
  public:
-  /// Private parameters: ~camera_info_url, ~depth_info_url, ~depth_to_colour_translation,
-  /// ~depth_to_colour_rotation, ~disparity_offset, ~disparity_step. health must outlive this.
-  CameraCalibration(const ros::NodeHandle& camera_nh, const ros::NodeHandle& private_nh,
-                    Health& health);
+  /// health must outlive this.
+  CameraCalibration(const ros::NodeHandle& camera_nh, const CameraOptions& options, Health& health);
 
   /// Reads the files of that serial number ("" where it has none).
   void load(const std::string& serial);
@@ -34,14 +33,13 @@ class CameraCalibration {
  private:
   LensCalibration lens(camera_info_manager::CameraInfoManager& manager, const std::string& what,
                        const LensCalibration& nominal);
-  void read_pose(const ros::NodeHandle& nh);
 
   Health& health_;
   std::string colour_url_;
   std::string depth_url_;
   camera_info_manager::CameraInfoManager colour_;
   camera_info_manager::CameraInfoManager depth_;
-  Pose colour_from_depth_ = Pose::Identity();
+  Pose colour_from_depth_;
   DisparityModel disparity_;
   sensor_msgs::CameraInfo colour_seen_;  // as the managers had it
   sensor_msgs::CameraInfo depth_seen_;

@@ -3,6 +3,8 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "player_options.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {
@@ -14,23 +16,15 @@ constexpr double kLookPeriod = 3.0;  // s
 }  // namespace
 
 void CameraRelay::onInit() {
-  ros::NodeHandle& nh = getPrivateNodeHandle();
-  const std::string robot = nh.param("robot", std::string("eyebug_a"));
-  if (robot.empty()) {
-    NODELET_ERROR("~robot must not be empty");
-    return;
-  }
-  health_ = std::make_unique<Health>(getNodeHandle(), nh, getName(), robot);
-  const InputTopics topics = input_topics(robot);
-  connect<sensor_msgs::CameraInfo>(
-      lines_[0], nh.param("camera_info_topic", std::string("/camera/rgb/camera_info")),
-      topics.camera_info);
-  connect<sensor_msgs::Image>(
-      lines_[1], nh.param("rgb_topic", std::string("/camera/rgb/image_rect_color")), topics.colour);
-  connect<sensor_msgs::Image>(
-      lines_[2],
-      nh.param("depth_topic", std::string("/camera/depth_registered/hw_registered/image_rect_raw")),
-      topics.depth);
+  ros::NodeHandle& private_nh = getPrivateNodeHandle();
+  RelayOptions options;
+  const std::string wrong = read_parameters(private_nh, options_of(options));
+  health_ = std::make_unique<Health>(getNodeHandle(), private_nh, getName(), options.robot);
+  if (!wrong.empty()) return health_->refuse_parameters(wrong);
+  const InputTopics topics = input_topics(options.robot);
+  connect<sensor_msgs::CameraInfo>(lines_[0], options.camera_info_topic, topics.camera_info);
+  connect<sensor_msgs::Image>(lines_[1], options.rgb_topic, topics.colour);
+  connect<sensor_msgs::Image>(lines_[2], options.depth_topic, topics.depth);
   timer_ =
       getNodeHandle().createWallTimer(ros::WallDuration(kLookPeriod), &CameraRelay::watch, this);
 }

@@ -12,6 +12,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {
@@ -20,23 +21,6 @@ namespace {
 constexpr double kGroundTruthPatience = 3.0;  // s
 constexpr int kQueue = 4;
 constexpr auto kPoll = std::chrono::milliseconds(5);
-
-/// Intrinsics from parameters, if ~fx is set (the others must be then).
-std::optional<Camera> camera_from_parameters(const ros::NodeHandle& nh) {
-  Camera camera;
-  if (nh.param("fx", 0.0) <= 0.0) return std::nullopt;
-  nh.getParam("fx", camera.fx);
-  camera.fy = nh.param("fy", camera.fx);
-  camera.width = nh.param("width", 640);
-  camera.height = nh.param("height", 480);
-  camera.cx = nh.param("cx", 0.5 * (camera.width - 1));
-  camera.cy = nh.param("cy", 0.5 * (camera.height - 1));
-  return camera;
-}
-
-std::size_t not_negative(int value) {
-  return static_cast<std::size_t>(std::max(value, 0));
-}
 
 }  // namespace
 
@@ -52,8 +36,10 @@ PairPlayer::~PairPlayer() {
 void PairPlayer::onInit() {
   ros::NodeHandle& nh = getNodeHandle();
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
-  if (!read_settings()) return;
+  std::string wrong = read_parameters(private_nh, options_of(settings_));
+  if (wrong.empty()) wrong = complete(settings_);
   health_ = std::make_unique<Health>(nh, private_nh, getName(), settings_.a + "+" + settings_.b);
+  if (!wrong.empty()) return health_->refuse_parameters(wrong);
   a_ = advertise(settings_.a);
   b_ = advertise(settings_.b);
   done_ = private_nh.advertise<std_msgs::Bool>("done", 1, true);
@@ -63,40 +49,6 @@ void PairPlayer::onInit() {
   }
   worker_ = std::make_unique<Worker>(1);
   worker_->post([this] { play(); });
-}
-
-bool PairPlayer::read_settings() {
-  const ros::NodeHandle& nh = getPrivateNodeHandle();
-  settings_.source = nh.param("source", std::string());
-  settings_.a = nh.param("a", std::string("eyebug_a"));
-  settings_.b = nh.param("b", std::string("eyebug_b"));
-  settings_.schedule.step = not_negative(nh.param("step", 1));
-  settings_.schedule.start = not_negative(nh.param("start", 0));
-  settings_.schedule.count = not_negative(nh.param("count", 0));
-  settings_.schedule.loop = nh.param("loop", false);
-  settings_.rate = nh.param("rate", 1.0);
-  settings_.wait_for_subscribers = nh.param("wait_for_subscribers", 1);
-  settings_.wait_timeout = nh.param("wait_timeout", 30.0);
-  settings_.handshake = nh.param("handshake", false);
-  settings_.handshake_timeout = nh.param("handshake_timeout", 10.0);
-  settings_.recording.association_window_s = nh.param("association_window", 0.02);
-  settings_.recording.depth_unit = nh.param("depth_unit", 0.0002);
-  settings_.recording.colour_topic = nh.param("colour_topic", std::string());
-  settings_.recording.depth_topic = nh.param("depth_topic", std::string());
-  settings_.recording.camera = camera_from_parameters(nh);
-  if (settings_.recording.camera && !settings_.recording.camera->valid()) {
-    NODELET_ERROR("~fx, ~fy, ~cx, ~cy, ~width and ~height do not make a camera; mend them");
-    return false;
-  }
-  if (settings_.source.empty()) {
-    NODELET_ERROR("~source is not set: give a folder in the TUM layout or a bag of one camera");
-    return false;
-  }
-  if (settings_.a.empty() || settings_.b.empty() || settings_.a == settings_.b) {
-    NODELET_ERROR("~a and ~b must be two different robot names");
-    return false;
-  }
-  return true;
 }
 
 PairPlayer::Outputs PairPlayer::advertise(const std::string& robot) {

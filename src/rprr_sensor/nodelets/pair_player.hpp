@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string>
 
+#include "player_options.hpp"
 #include "rprr_ros/health.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_sensor/pair_schedule.hpp"
@@ -31,18 +32,6 @@ class PairPlayer : public nodelet::Nodelet {
   ~PairPlayer() override;
 
  private:
-  struct Settings {
-    std::string source;
-    std::string a;
-    std::string b;
-    RecordingOptions recording;
-    PairScheduleOptions schedule;
-    double rate = 0.0;
-    int wait_for_subscribers = 0;
-    double wait_timeout = 0.0;
-    bool handshake = false;
-    double handshake_timeout = 0.0;
-  };
   struct Outputs {
     std::string robot;
     ros::Publisher colour;
@@ -52,7 +41,6 @@ class PairPlayer : public nodelet::Nodelet {
   };
 
   void onInit() override;
-  bool read_settings();
   Outputs advertise(const std::string& robot);
   void on_statistics(const rprr_msgs::PairStatisticsConstPtr& statistics);
   bool on_next(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -72,7 +60,7 @@ class PairPlayer : public nodelet::Nodelet {
   /// stops or the wall time is over; negative: no limit. Returns what `ready` said last.
   bool wait_until(const std::function<bool()>& ready, double timeout);
 
-  Settings settings_;
+  PlayerOptions settings_;
   std::unique_ptr<Health> health_;
   Outputs a_;
   Outputs b_;

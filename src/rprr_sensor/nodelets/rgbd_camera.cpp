@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
@@ -19,17 +20,6 @@ namespace {
 constexpr int kQueue = 4;
 constexpr Duration kLongestSleep = from_seconds(0.1);
 constexpr double kLookPeriod = 1.0;  // s, at what changes slowly
-
-std::optional<RegistrationChoice> registration_of(const std::string& name) {
-  if (name == "auto") return RegistrationChoice::automatic;
-  if (name == "device") return RegistrationChoice::device;
-  if (name == "own") return RegistrationChoice::own;
-  return std::nullopt;
-}
-
-DeviceControls controls_of(const rprr_sensor::RgbdCameraConfig& config) {
-  return {config.auto_exposure, config.auto_white_balance, config.exposure, config.gain};
-}
 
 std::string with_unit(double value, const char* format) {
   char text[64];
@@ -55,66 +45,42 @@ RgbdCamera::~RgbdCamera() {
 }
 
 void RgbdCamera::onInit() {
-  if (!read_settings()) return;
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
-  health_ = std::make_unique<Health>(getNodeHandle(), private_nh, getName(), settings_.robot);
+  const std::string wrong = read_parameters(private_nh, options_of(options_));
+  health_ = std::make_unique<Health>(getNodeHandle(), private_nh, getName(), options_.robot);
+  if (!wrong.empty()) return health_->refuse_parameters(wrong);
+  if (options_.frame_id.empty()) options_.frame_id = optical_frame(options_.robot);
+  gate_.pause(options_.paused);
+  apply_live_options();
   calibration_ = std::make_unique<CameraCalibration>(
-      ros::NodeHandle(getNodeHandle(), "/" + settings_.robot + "/camera"), private_nh, *health_);
+      ros::NodeHandle(getNodeHandle(), "/" + options_.robot + "/camera"), options_, *health_);
   advertise();
-  reconfigure_ = std::make_unique<dynamic_reconfigure::Server<Config>>(private_nh);
-  reconfigure_->setCallback(
-      [this](Config& config, std::uint32_t level) { on_reconfigure(config, level); });
+  const SessionOptions session = options_.session;  // the worker's own
+  live_ = std::make_unique<LiveOptions>(private_nh, options_of(options_), *health_, [this] {
+    apply_live_options();
+    return std::string();
+  });
   worker_ = std::make_unique<Worker>(1);
-  worker_->post([this] { run(); });
-}
-
-bool RgbdCamera::read_settings() {
-  const ros::NodeHandle& nh = getPrivateNodeHandle();
-  settings_.robot = nh.param("robot", std::string("eyebug_a"));
-  settings_.frame = nh.param("frame_id", std::string());
-  if (settings_.frame.empty()) settings_.frame = optical_frame(settings_.robot);
-  SessionOptions& session = settings_.session;
-  session.serial = nh.param("device", std::string());
-  session.modes.width = nh.param("width", session.modes.width);
-  session.modes.height = nh.param("height", session.modes.height);
-  session.modes.rate = nh.param("fps", session.modes.rate);
-  session.window = from_seconds(nh.param("max_skew", to_seconds(session.window)));
-  session.silence = from_seconds(nh.param("silence_timeout", to_seconds(session.silence)));
-  gate_.pause(nh.param("paused", false));
-  const std::string registration = nh.param("registration", std::string("auto"));
-  const auto choice = registration_of(registration);
-  if (!choice) {
-    NODELET_ERROR("~registration is '%s'; it is one of auto, device and own", registration.c_str());
-    return false;
-  }
-  session.modes.registration = *choice;
-  if (settings_.robot.empty() || session.modes.width <= 0 || session.modes.height <= 0 ||
-      session.modes.rate <= 0 || session.window < 0 || session.silence <= 0) {
-    NODELET_ERROR(
-        "~robot must not be empty; ~width, ~height, ~fps and ~silence_timeout must be "
-        "above 0, ~max_skew not below");
-    return false;
-  }
-  return true;
+  worker_->post([this, session] { run(session); });
 }
 
 void RgbdCamera::advertise() {
   ros::NodeHandle& nh = getNodeHandle();
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
-  const InputTopics topics = input_topics(settings_.robot);
+  const InputTopics topics = input_topics(options_.robot);
   colour_ = nh.advertise<sensor_msgs::Image>(topics.colour, kQueue);
   raw_colour_ =
-      nh.advertise<sensor_msgs::Image>("/" + settings_.robot + "/camera/rgb/image_raw", kQueue);
+      nh.advertise<sensor_msgs::Image>("/" + options_.robot + "/camera/rgb/image_raw", kQueue);
   camera_info_ = nh.advertise<sensor_msgs::CameraInfo>(topics.camera_info, kQueue);
   depth_ = nh.advertise<sensor_msgs::Image>(topics.depth, kQueue);
   pause_ = private_nh.advertiseService("pause", &RgbdCamera::on_pause, this);
   trigger_ = private_nh.advertiseService("trigger", &RgbdCamera::on_trigger, this);
 }
 
-void RgbdCamera::on_reconfigure(Config& config, std::uint32_t /*level*/) {
+void RgbdCamera::apply_live_options() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  gate_.limit(config.every_nth, config.max_rate);
-  new_controls_ = controls_of(config);
+  gate_.limit(options_.every_nth, options_.max_rate);
+  new_controls_ = options_.session.controls;
 }
 
 bool RgbdCamera::on_pause(std_srvs::SetBool::Request& request,
@@ -142,11 +108,11 @@ bool RgbdCamera::on_trigger(std_srvs::Trigger::Request& /*request*/,
   return true;
 }
 
-void RgbdCamera::run() {
+void RgbdCamera::run(const SessionOptions& options) {
   SessionClocks clocks;
   clocks.steady = steady_now;
   clocks.stamps = [] { return to_stamp(ros::Time::now()); };
-  DeviceSession session(make_driver(), settings_.session, clocks);
+  DeviceSession session(make_driver(), options, clocks);
   while (running()) {
     std::optional<DeviceControls> controls;
     {
@@ -189,7 +155,7 @@ void RgbdCamera::handle(SessionStep step, DeviceSession& session) {
 void RgbdCamera::opened(const DeviceSession& session) {
   const std::string& serial = session.device()->serial();
   NODELET_INFO("camera %s of %s runs", serial.empty() ? "without serial number" : serial.c_str(),
-               settings_.robot.c_str());
+               options_.robot.c_str());
   health_->show("serial", serial.empty() ? "none" : serial);
   health_->count("times opened");
   calibration_->load(serial);
@@ -199,7 +165,7 @@ void RgbdCamera::opened(const DeviceSession& session) {
 void RgbdCamera::prepare(const RgbdDevice& device) {
   const bool own = device.depth_format() != DepthFormat::registered_mm;
   health_->show("registration", own ? "own" : "by the device");
-  const DeviceModes& modes = settings_.session.modes;
+  const DeviceModes& modes = options_.session.modes;
   auto processor = PairProcessor::create(calibration_->get(modes.width, modes.height, own),
                                          device.depth_format());
   processor_.reset();
@@ -218,7 +184,7 @@ void RgbdCamera::publish(const DevicePair& pair) {
   }
   std_msgs::Header header;
   header.stamp = to_time(pair.colour_stamp);
-  header.frame_id = settings_.frame;
+  header.frame_id = options_.frame_id;
   const auto info = boost::make_shared<sensor_msgs::CameraInfo>(calibration_->colour_info());
   info->header = header;
   camera_info_.publish(info);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
-#include <rprr_sensor/RgbdCameraConfig.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
@@ -15,7 +13,9 @@
 #include <string>
 
 #include "camera_calibration.hpp"
+#include "camera_options.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/live_options.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_sensor/device_session.hpp"
 #include "rprr_sensor/pair_processor.hpp"
@@ -38,22 +38,14 @@ class RgbdCamera : public nodelet::Nodelet {
   virtual std::unique_ptr<RgbdDriver> make_driver() const = 0;
 
  private:
-  using Config = rprr_sensor::RgbdCameraConfig;
-  struct Settings {
-    std::string robot;
-    std::string frame;
-    SessionOptions session;
-  };
-
   void onInit() override;
-  bool read_settings();
   void advertise();
-  void on_reconfigure(Config& config, std::uint32_t level);
+  void apply_live_options();
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_trigger(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   // On the worker's thread:
-  void run();
+  void run(const SessionOptions& options);
   void handle(SessionStep step, DeviceSession& session);
   void opened(const DeviceSession& session);
   void prepare(const RgbdDevice& device);
@@ -63,7 +55,7 @@ class RgbdCamera : public nodelet::Nodelet {
   bool running() const;
   void sleep(Duration at_most);
 
-  Settings settings_;
+  CameraOptions options_;  // the live ones change, in callbacks
   std::unique_ptr<Health> health_;
   std::unique_ptr<CameraCalibration> calibration_;
   std::optional<PairProcessor> processor_;
@@ -73,7 +65,7 @@ class RgbdCamera : public nodelet::Nodelet {
   ros::Publisher depth_;
   ros::ServiceServer pause_;
   ros::ServiceServer trigger_;
-  std::unique_ptr<dynamic_reconfigure::Server<Config>> reconfigure_;
+  std::unique_ptr<LiveOptions> live_;
   ros::WallTime last_look_;  // at what changes slowly
 
   mutable std::mutex mutex_;

@@ -11,10 +11,9 @@
 
 #include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/station.hpp"
+#include "rprr_station/station_options.hpp"
 
 namespace rprr {
-
-enum class DepthEncoding { kAuto /* 16UC1 where a count is 1 mm */, kMillimetres, kMetres };
 
 /// The sender's stamp; the frame in which the view lives: the sender's own for a whole one,
 /// <robot>_rprr_optical_frame for a rebuilt one.

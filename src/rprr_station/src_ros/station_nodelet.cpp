@@ -66,22 +66,19 @@ class StationNodelet : public nodelet::Nodelet {
 
   void onInit() override {
     ros::NodeHandle& nh = getNodeHandle();
-    const Result<StationParameters> parameters = read_station_parameters(getPrivateNodeHandle());
-    if (!parameters) {
-      NODELET_FATAL_STREAM(parameters.reason());
-      return;
-    }
-    parameters_ = *parameters;
-    const std::vector<std::string>& names = parameters_.station.robots;
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
+    const std::string wrong = read_station_parameters(getPrivateNodeHandle(), parameters_);
+    if (!wrong.empty()) return health_->refuse_parameters(wrong);
+    const std::vector<std::string>& names = parameters_.station.robots;
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
     points_ = nh.advertise<sensor_msgs::PointCloud2>("/station/points", 2);
     receipts_ = nh.advertise<rprr_msgs::Receipt>("/station/receipts", 20);
     frusta_ = nh.advertise<visualization_msgs::MarkerArray>("/station/frusta", 20);
-    cloud_ = std::make_unique<SceneCloud>(parameters_.cloud);
+    cloud_ = std::make_unique<SceneCloud>(cloud_options(parameters_));
     station_ = std::make_unique<Station>(parameters_.station, make_isolated_colour_decoder());
     // One job for every message that waits, one for the tick: no job is ever dropped.
-    worker_ = std::make_unique<Worker>(names.size() * parameters_.queue * kChunksOfAFrame + 1);
+    worker_ =
+        std::make_unique<Worker>(names.size() * parameters_.output.queue * kChunksOfAFrame + 1);
     for (const std::string& name : names) advertise(nh, name);
     for (const std::string& name : names) {
       using Event = ros::MessageEvent<rprr_msgs::EncodedFrame const>;
@@ -142,8 +139,8 @@ class StationNodelet : public nodelet::Nodelet {
       return message->data.size() > kLongestChunk;
     };
     const auto frames = std::count_if(queue.begin(), queue.end(), is_long);
-    return queue.size() > parameters_.queue * kChunksOfAFrame ||
-           static_cast<std::size_t>(frames) > parameters_.queue;
+    return queue.size() > parameters_.output.queue * kChunksOfAFrame ||
+           static_cast<std::size_t>(frames) > parameters_.output.queue;
   }
 
   void on_timer(const ros::WallTimerEvent&) {
@@ -220,13 +217,14 @@ class StationNodelet : public nodelet::Nodelet {
     const std_msgs::Header header = header_of(frame);
     robot.info.publish(info_from_camera(frame.camera, header));
     offer(robot.rgb, [&] { return to_image(header, encodings::BGR8, frame.bgr); });
-    offer(robot.depth, [&] { return depth_message(frame, header, parameters_.depth_encoding); });
+    offer(robot.depth,
+          [&] { return depth_message(frame, header, parameters_.output.depth_encoding); });
     offer(robot.points, [&] { return cloud_message(frame, header); });
     offer(robot.provenance, [&] { return to_image(header, encodings::MONO8, frame.provenance); });
     offer(frusta_, [&] {
       visualization_msgs::MarkerArray frusta;
       frusta.markers.push_back(
-          frustum_message(frame, header, robot.number, parameters_.frustum_length));
+          frustum_message(frame, header, robot.number, parameters_.output.frustum_length));
       return frusta;
     });
     publish_scene(frame);
@@ -261,7 +259,7 @@ class StationNodelet : public nodelet::Nodelet {
       return;
     }
     if (!cloud_->add(frame) || now() < next_scene_) return;
-    next_scene_ = now() + parameters_.cloud_period;
+    next_scene_ = now() + parameters_.output.cloud_period;
     cloud_->make(scene_);
     points_.publish(boost::make_shared<sensor_msgs::PointCloud2>(scene_message(scene_)));
   }

@@ -3,24 +3,25 @@
 
 #include <ros/ros.h>
 
-#include "rprr_geometry/result.hpp"
+#include <string>
+
 #include "rprr_station/scene_cloud.hpp"
-#include "rprr_station/station.hpp"
-#include "station_messages.hpp"
+#include "rprr_station/station_options.hpp"
 
 namespace rprr {
 
 struct StationParameters {
   StationOptions station;
-  DepthEncoding depth_encoding = DepthEncoding::kAuto;
-  double frustum_length = 0.5;  // metres
-  SceneCloudOptions cloud;
-  Duration cloud_period = from_seconds(0.5);  // least time between scene clouds
-  std::size_t queue = 4;                      // messages per robot that may wait for the decoder
-  bool link_recovery = true;                  // RadioLinks look after the robots' topics
+  StationOutputOptions output;
+  bool link_recovery = true;  // RadioLinks look after the robots' topics
 };
 
-/// The private parameters of config/station.yaml. Errors name the parameter and what it may be.
-Result<StationParameters> read_station_parameters(const ros::NodeHandle& private_nh);
+/// All private parameters of the station's node: config/station.yaml.
+OptionTable table_of(StationParameters& parameters);
+/// Reads them. Empty, or what is wrong.
+std::string read_station_parameters(const ros::NodeHandle& private_nh,
+                                    StationParameters& parameters);
+/// What follows from them for the clouds of scenes.
+SceneCloudOptions cloud_options(const StationParameters& parameters);
 
 }  // namespace rprr

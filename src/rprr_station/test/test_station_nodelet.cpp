@@ -42,7 +42,9 @@ cv::Mat colour(int blue) {
 EncodedFrame encode(EncodedFrame frame, const DepthFrame& depth, const cv::Mat& bgr) {
   frame.camera = kCamera;
   FrameCodecOptions options;
+  options.colour_codec = "pgf";
   options.colour_quality = 0;
+  options.objective = Objective::kFixed;
   auto encoder = FrameEncoder::create(options);
   EXPECT_TRUE(encoder) << encoder.reason();
   const auto done = encoder->encode(depth, bgr, frame);

@@ -30,9 +30,8 @@ void enlarge_row(const cv::Mat& base, int reduction, int row, cv::Mat& out);
 /// planner tries several. One object serves one thread and keeps its buffers between frames.
 class ColourLayers {
  public:
-  /// base_codec: empty for the detail's. Errors: unknown names.
-  static Result<ColourLayers> create(const std::string& codec, const std::string& base_codec,
-                                     UnsentFill fill);
+  /// Detail and base are of one codec. Errors: an unknown name.
+  static Result<ColourLayers> create(const std::string& codec, UnsentFill fill);
 
   /// Takes up a frame. bgr: CV_8UC3, shared, not to be altered until the next frame. sent: the
   /// blocks of the detail, of the image's grid; null if the frame is whole.
@@ -54,20 +53,16 @@ class ColourLayers {
   ColourLayout layout() const { return layout_; }
   /// The frame's own.
   const cv::Mat& image() const { return bgr_; }
-  std::string codec() const { return detail_codec_->name(); }
-  std::string base_codec() const { return base_codec_->name(); }
+  std::string codec() const { return codec_->name(); }
   ColourCodecInfo info() const { return *colour_codec_info(codec()); }
-  ColourCodecInfo base_info() const { return *colour_codec_info(base_codec()); }
 
  private:
-  ColourLayers(std::unique_ptr<ColourEncoder> detail, std::unique_ptr<ColourEncoder> base,
-               UnsentFill fill);
+  ColourLayers(std::unique_ptr<ColourEncoder> codec, UnsentFill fill);
   void choose_layout();
   void fill(cv::Mat& bgr, const BlockMask& known, int reduction, bool flat);
   const cv::Mat& detail();
 
-  std::unique_ptr<ColourEncoder> detail_codec_;
-  std::unique_ptr<ColourEncoder> base_codec_;
+  std::unique_ptr<ColourEncoder> codec_;
   UnsentFill fill_;
   SmoothFill smooth_;
 

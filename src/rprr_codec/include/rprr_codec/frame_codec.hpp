@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "rprr_codec/colour_codec.hpp"
@@ -13,6 +15,7 @@
 #include "rprr_codec/dhcm.hpp"
 #include "rprr_codec/encoded_frame.hpp"
 #include "rprr_codec/layer_ladder.hpp"
+#include "rprr_geometry/option_table.hpp"
 
 namespace rprr {
 
@@ -44,39 +47,59 @@ class FrameDecoder {
   std::unique_ptr<DhcmDecoder> depth_;
 };
 
+/// What decides how fine the colours of a sparse frame are, objectives kView and kMap.
+struct SparseColours {
+  enum class By {
+    kQuality,  // FrameCodecOptions::colour_quality
+    kBytes,    // the finest with which the encoded frame, depth and all, is not longer than amount
+    kPsnr,     // the coarsest with which what is sent comes so near to the camera's image
+  };
+  By by = By::kQuality;
+  double amount = 0.0;  // kBytes: bytes, above 0; kPsnr: dB, above 0
+};
+/// "quality", "bytes:12000" (a whole number above 0) or "psnr:34.5"; none of anything else.
+std::optional<SparseColours> sparse_colours_of(const std::string& text);
+std::string text_of(const SparseColours& colours);
+
+/// A view that is rebuilt is like a whole image of this share of colour_quality, on WebP's scale.
+/// Below 1, since whole frames are references: what is lost in them is lost in every view predicted
+/// from them. At half, quality 40 gives views like whole images of quality 20: docs/quality.md.
+constexpr double kViewShare = 0.5;
+
+/// How a frame is coded. Defaults are those of profile `default`.
+///
+/// How fine colours are, first what goes first:
+/// 1. The radio: the limit of FrameEncoder::encode_within, which SendQueue sets on a narrow radio.
+///    No setting makes a frame longer.
+/// 2. sparse_colours, of sparse frames under objectives kView and kMap, where it names bytes or a
+///    PSNR.
+/// 3. colour_quality, the one knob: whole frames have it; under kFixed and kMap so have the blocks
+///    that are sent, and under kView the picture follows it (kViewShare).
 struct FrameCodecOptions {
-  DhcmMode depth_mode = DhcmMode::kDefault;
-  std::string colour_codec = "pgf";
-  int colour_quality = 6;  // the codec's own scale: of whole frames and of detail
-  /// Objective kView: the picture is about as good as a whole image of this quality (the codec's
-  /// own scale). Below colour_quality, since whole frames are references: what is lost in them is
-  /// lost in every view predicted from them.
-  int view_quality = 8;
-  /// How a sparse frame's layers are chosen; kFixed: as base_reduction and base_quality say.
-  Objective objective = Objective::kFixed;
-  /// Objectives kMap and kView: the finest layers with which the encoded frame, depth and all, is
-  /// not longer (bytes); the coarsest if none is short enough. 0: no limit, the layers that go with
-  /// colour_quality.
-  std::size_t byte_budget = 0;
-  /// Objectives kMap and kView: the coarsest layers with which what is sent, detail where there is
-  /// some and the base elsewhere, comes so near to the colour image (dB). 0: not asked for. A
-  /// budget goes first.
-  double target_psnr = 0.0;
-  std::string base_codec;  // empty: colour_codec
-  int base_reduction = 0;  // of sparse frames; 0: no base; 1, 2, 4, 8, 16
-  int base_quality = 12;   // the codec's own scale
+  DhcmMode depth_mode = DhcmMode::kSmall;
+  std::string colour_codec = "webp";
+  /// On the codec's own scale. webp: 0 coarsest to 100 finest. jpeg: 1 to 100. pgf: 30 coarsest to
+  /// 1 finest, 0 lossless.
+  int colour_quality = 40;
+  /// What the colours of sparse frames are for. kFixed sends the mask's blocks and no base.
+  Objective objective = Objective::kView;
+  SparseColours sparse_colours;
   /// encode_within may round depth to steps of inverse depth, 1/metre, of up to this; 0: it stays
   /// lossless. A Kinect's own step is 0.00285.
   double depth_step = 0.0;
   UnsentFill fill = UnsentFill::kSmooth;
-  bool measure_independent =
-      false;  // also encode the whole frame, to report what it would have cost
+  /// Also encode the whole frame, to report what it would have cost.
+  bool measure_independent = false;
 };
+
+/// Live: objective, colour_quality, sparse_colours.
+void list_options(FrameCodecOptions& options, OptionTable& table);
 
 /// Depth and colour of one frame to payloads: one way in for the encoder nodelet and rprr_eval.
 class FrameEncoder {
  public:
-  /// Errors: names, qualities or a reduction that do not exist.
+  /// Errors: a codec that does not exist, a quality that the codec has not, sparse_colours that
+  /// objective kFixed takes no notice of.
   static Result<FrameEncoder> create(const FrameCodecOptions& options);
 
   /// Fills depth, colour, base, what describes them, and the independent bytes and encode time of

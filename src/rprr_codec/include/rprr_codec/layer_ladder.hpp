@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,10 @@ namespace rprr {
 
 /// What a dependent's colour is for.
 enum class Objective {
-  kFixed,  // layers as told
+  kFixed,  // the blocks sent, and nothing of the rest
   kMap,    // new surfaces well, the least for the rest
   kView,   // the best whole picture
 };
-
-/// "fixed", "map" or "view"; none of anything else.
-std::optional<Objective> objective_of(const std::string& name);
 
 /// How the colour of one frame is sent. Of a whole frame only detail_quality counts.
 struct LayerSettings {
@@ -36,9 +32,9 @@ struct LayerSettings {
 class LayerLadder {
  public:
   /// few_blocks: whether few of the frame's blocks are to be sent (kFewBlocksShare). usual_quality:
-  /// that of a whole image, on the detail codec's own scale, which the usual rung is like.
-  LayerLadder(Objective objective, bool few_blocks, const ColourCodecInfo& detail,
-              const ColourCodecInfo& base, int usual_quality);
+  /// that of a whole image, on WebP's scale, which the usual rung is like.
+  LayerLadder(Objective objective, bool few_blocks, const ColourCodecInfo& codec,
+              double usual_quality);
 
   int rungs() const { return static_cast<int>(settings_.size()); }
   const LayerSettings& at(int rung) const { return settings_[static_cast<std::size_t>(rung)]; }

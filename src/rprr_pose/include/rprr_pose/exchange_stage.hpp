@@ -17,6 +17,8 @@
 
 namespace rprr {
 
+/// How robots find their relative poses. Defaults are those of profile `default`; the table of
+/// parameters is in pose_options.hpp.
 struct ExchangeOptions {
   bool use_previews = true;  ///< protocol: preview, or samples; the same on all robots
   PreviewOptions preview;
@@ -44,6 +46,8 @@ class ExchangeStage final : public ExchangeRole {
   bool set_reference(const std::string& peer, bool refer);
   /// False also for robots that are none of the peers.
   bool refers_to(const std::string& peer) const;
+  /// Which protocol the stage speaks: ExchangeOptions::use_previews.
+  bool uses_previews() const { return use_previews_; }
 
   void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override;
   void receive(const std::string& peer, const PoseMessage& message, Stamp now,

@@ -30,7 +30,7 @@ struct PreviewOptions {
   std::size_t frames_kept = 30;                        // reference: recent frames to choose from
   /// Reference: while its radio is busy it refers to a frame that it sent not longer than this ago,
   /// and where no frame is near b's in time to the nearest it has. 0: only to frames near in time.
-  Duration reference_age = 0;
+  Duration reference_age = from_seconds(10.0);
   std::uint32_t first_exchange = 1;  // dependent: number of the first exchange, not 0
 };
 

@@ -16,14 +16,14 @@ namespace rprr {
 /// settings shape the estimate; the dependent follows what it is asked.
 struct SamplesOptions {
   int sample_count = kSampleCount;      // points a robot sends
-  int max_iterations = 50;              // paper
+  int max_iterations = 20;              // from a local start a few are enough; the paper: 50
   double converged_translation = 1e-3;  // metres; ours, those of Lui et al. are not public
   double converged_rotation = 1e-3;     // rad; likewise
   bool resample = false;    // new points in every iteration (paper) or one set for an exchange
   bool by_noise = true;     // see IcpWeights
   bool local_start = true;  // reference: align b's points alone to Z_a before asking b again
   VerificationLimits limits;
-  Duration step_timeout = from_seconds(0.5);  // for the peer's answer
+  Duration step_timeout = from_seconds(1.0);  // for the peer's answer
   Duration min_period = 0;                    // reference: between starts of exchanges
   Duration silence_timeout =
       from_seconds(1.0);  // dependent: unclaimed frames go out whole after this

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_radio/rate_limit.hpp"
 #include "rprr_wire/bytes.hpp"
@@ -35,6 +36,9 @@ struct SendQueueOptions {
   Duration lost_after = from_seconds(4.0);
   Duration repeat_period = from_seconds(1.0);  // a frame is not repeated more often
 };
+
+/// Live: bandwidth, frame_rate.
+void list_options(SendQueueOptions& options, OptionTable& table);
 
 /// A frame that waits to be encoded.
 struct QueuedFrame {

@@ -12,15 +12,10 @@
 #include "rprr_redundancy/decision.hpp"
 #include "rprr_redundancy/outgoing.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
+#include "rprr_redundancy/redundancy_options.hpp"
 #include "rprr_redundancy/validation.hpp"
 
 namespace rprr {
-
-struct RedundancyOptions {
-  ValidationOptions validation;
-  DecisionOptions decision;
-  OutgoingOptions outgoing;
-};
 
 /// What this robot, as the reference, tells a dependent to send (rprr_msgs/BlockMask).
 struct BlockRequest {

@@ -24,6 +24,8 @@ class Health {
   /// report.
   void warn(const std::string& key, const std::string& text);
   void error(const std::string& key, const std::string& text);
+  /// Says once and for all that the nodelet does nothing: its parameters are wrong, as text says.
+  void refuse_parameters(const std::string& text);
   /// Adds to a counter shown on /diagnostics.
   void count(const std::string& counter, std::uint64_t by = 1);
   /// Shows a value on /diagnostics.
@@ -36,6 +38,7 @@ class Health {
     ros::WallTime last;
     ros::WallTime logged;
     std::uint64_t times = 0;
+    bool lasts = false;  // shown until the node ends
   };
 
   void report(const std::string& key, const std::string& text, bool is_error);

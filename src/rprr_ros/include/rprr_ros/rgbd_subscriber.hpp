@@ -13,25 +13,34 @@
 #include <mutex>
 #include <string>
 
+#include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_ros/health.hpp"
 
 namespace rprr {
 
+/// How a robot's own camera is listened to.
+struct InputOptions {
+  double max_stamp_difference = 0.02;  ///< between colour and depth of one frame [s]
+  double depth_unit = 0.0002;          ///< that 32FC1 depth is quantised to [m per count]
+  std::string image_transport = "raw";
+};
+
+void list_options(InputOptions& options, OptionTable& table);
+
 /// Subscribes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
 /// .../depth_registered/image_rect, pairs colour and depth by stamp and checks them. What does not
 /// fit is dropped with a message and a diagnostic that name the topic and the remedy; depth without
 /// a single reading is reported and passed on. A frame keeps the messages alive where it shares
-/// their pixels. Private parameters: ~max_stamp_difference (s,
-/// default 0.02), ~depth_unit (metres per count for 32FC1 depth, default 0.0002), ~image_transport
-/// (default raw).
+/// their pixels.
 class RgbdSubscriber {
  public:
   using Callback = std::function<void(const RgbdFramePtr&)>;
 
   /// The callback runs on the node handle's callback queue. health must outlive this object.
+  /// Parameters of image_transport itself are read from private_nh.
   RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& robot,
-                 Health& health, Callback callback);
+                 const InputOptions& options, Health& health, Callback callback);
 
  private:
   void on_info(const sensor_msgs::CameraInfoConstPtr& info);
@@ -43,8 +52,7 @@ class RgbdSubscriber {
 
   Health& health_;
   Callback callback_;
-  double max_stamp_difference_;
-  double depth_unit_;
+  const InputOptions options_;
   std::mutex mutex_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_rgb_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_depth_;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/ros.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "rprr_geometry/option_table.hpp"
+#include "rprr_ros/health.hpp"
+
+namespace rprr {
+
+/// The live options of a table as dynamic_reconfigure shows and changes them: rqt_reconfigure,
+/// dynparam and dynamic_reconfigure's clients work with it as with a server made from a .cfg file.
+///
+/// A request is taken as a whole or not at all: what the table or the node refuses leaves every
+/// option as it was and is told on /diagnostics. What is taken also goes to the parameter server,
+/// so that a node which is started again keeps it.
+class LiveOptions {
+ public:
+  /// Called after options have changed. Empty, or why the node refuses them: then they are put back
+  /// and it is not called again.
+  using Changed = std::function<std::string()>;
+
+  /// The structs that the table is bound to, and health, must outlive this. Requests are served on
+  /// the node handle's callback queue; the structs are written there alone.
+  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
+              Changed changed);
+
+ private:
+  using Request = dynamic_reconfigure::Reconfigure::Request;
+  using Response = dynamic_reconfigure::Reconfigure::Response;
+
+  bool on_request(Request& request, Response& response);
+  std::string take(const dynamic_reconfigure::Config& config);
+  dynamic_reconfigure::ConfigDescription description() const;
+  dynamic_reconfigure::Config config() const;
+
+  ros::NodeHandle nh_;
+  OptionTable table_;  // the live rows
+  Health& health_;
+  Changed changed_;
+  std::mutex mutex_;
+  ros::Publisher descriptions_;
+  ros::Publisher updates_;
+  ros::ServiceServer service_;
+};
+
+}  // namespace rprr
