@@ -53,7 +53,7 @@ void show(const BeliefModel& model, const std::vector<BeliefSample>& samples) {
   const std::array<double, kEvidenceTerms> typical = typical_terms(samples);
   TextTable table({"term", "slope", "median of right poses"});
   for (std::size_t i = 0; i < kEvidenceTerms; ++i) {
-    table.add({kNames[i], fixed(model.slopes[i], 2), fixed(typical[i], 3)});
+    table.add({kNames[i], fixed(model.slopes[i], 2), fixed(typical[i], 2)});
   }
   table.add({"constant", fixed(model.constant, 2), ""});
   std::cerr << "fitted anew, from " << samples.size() << " samples:\n" << table.text();

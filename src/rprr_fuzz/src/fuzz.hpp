@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "dhcm/container.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr::fuzz {
+
+/// The version of the depth format, and the kind of body that has streams (rprr_codec/doc/dhcm.md).
+constexpr std::uint8_t kVersion = 3;
+constexpr int kStrips = 2;
 
 /// Larger images only make a fuzzer slow.
 constexpr std::size_t kMaxPixels = 1 << 16;
@@ -32,11 +35,11 @@ inline void make_streams_fit(std::uint8_t* body, std::size_t size) {
 inline Bytes made_good(ByteView view) {
   if (view.size < 18) return {};
   Bytes bytes(view.data, view.data + view.size);
-  bytes[0] = dhcm::kVersion;
+  bytes[0] = kVersion;
   const std::size_t head = (bytes[1] & 8) != 0 ? 18 : 14;
   const std::size_t body = bytes.size() - head;
   for (std::size_t i = 0; i < 4; ++i) bytes[6 + i] = static_cast<std::uint8_t>(body >> (8 * i));
-  const bool strips = (bytes[1] & 3) == static_cast<int>(dhcm::Body::kStrips);
+  const bool strips = (bytes[1] & 3) == kStrips;
   if (strips && body >= 16) make_streams_fit(bytes.data() + head, body);
   seal(bytes);
   return bytes;

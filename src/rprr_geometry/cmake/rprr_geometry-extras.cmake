@@ -71,7 +71,7 @@ function(rprr_without_ros TARGET)
 endfunction()
 
 # rprr_core([NAME name] SOURCES ... [CORES ...] [LIBRARIES ...]): the core library of the package,
-# of its name if no other is given, and what installs it and the headers in include/.
+# of its name if no other is given, and what installs it.
 function(rprr_core)
   cmake_parse_arguments(CORE "" "NAME" "SOURCES;CORES;LIBRARIES" ${ARGN})
   if(NOT CORE_NAME)
@@ -87,7 +87,6 @@ function(rprr_core)
   rprr_link_cores(${CORE_NAME} ${CORE_CORES})
   target_link_libraries(${CORE_NAME} opencv_core ${CORE_LIBRARIES})
   install(TARGETS ${CORE_NAME} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-  install(DIRECTORY include/ DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 endfunction()
 
 # rprr_nodelets([NAME name] SOURCES ... [NODES node=Class ...] [CORES ...] [LIBRARIES ...]): the

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<double, kEvidenceTerms> kSlopes = {2.28, 9.55, -10.54, -37.23, 11.37};
 constexpr double kConstant = -7.41;
 // The same command printed these medians of the terms of right poses.
-constexpr std::array<double, kEvidenceTerms> kTypical = {1.5, 0.55, 0.03, 0.005, 0.3};
+constexpr std::array<double, kEvidenceTerms> kTypical = {1.80, 0.68, 0.00, 0.00, 0.30};
 constexpr std::array<PoseStatus, kEvidenceTerms> kCauses = {
     PoseStatus::kColourDisagrees, PoseStatus::kColourDisagrees, PoseStatus::kDepthDisagrees,
     PoseStatus::kFreeSpaceViolated, PoseStatus::kAmbiguous};
