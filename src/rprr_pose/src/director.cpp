@@ -172,7 +172,7 @@ void Director::answer_with(const Question& question, const RgbdFramePtr& first,
   if (!wrong.empty()) attempt.wrong = wrong;
   RelativePoseMessage& pose = attempt.pose;
   remember(question, pose);
-  if (!attempt.wrong.empty()) out.problems.push_back(question.peer + ": " + attempt.wrong);
+  if (!attempt.wrong.empty()) out.problems.push_back({question.peer, attempt.wrong});
   if (content && content->known_peer_hash != camera_hash(frame->camera)) {
     ByteWriter writer;
     put_camera(writer, frame->camera);

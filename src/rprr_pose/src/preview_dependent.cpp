@@ -60,7 +60,7 @@ class PreviewDependent final : public ExchangeRole {
                         pose->verdict);
     }
     if (!is_rigid(pose->motion) || !pose->covariance.allFinite() || !peer_camera_) {
-      out.problems.push_back(peer_ + ": accepted pose that is not a pose, or no camera");
+      out.problems.push_back({peer_, "accepted pose that is not a pose, or no camera"});
       return send_whole("pose could not be read", out);
     }
     camera_sent_ = camera_hash(exchange_->frame->camera);
@@ -118,7 +118,7 @@ class PreviewDependent final : public ExchangeRole {
     if (camera) {
       peer_camera_ = *camera;
     } else {
-      out.problems.push_back(peer_ + ": " + camera.reason());
+      out.problems.push_back({peer_, camera.reason()});
     }
   }
 

@@ -90,7 +90,7 @@ class SamplesDependent final : public ExchangeRole {
   void begin(const SamplesMessage& message, Stamp deadline, Stamp now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content || content->iteration != 0) {
-      if (!content) out.problems.push_back(peer_ + ": " + content.reason());
+      if (!content) out.problems.push_back({peer_, content.reason()});
       return;
     }
     const RgbdFramePtr frame = frames_.nearest(message.stamp);
@@ -107,7 +107,7 @@ class SamplesDependent final : public ExchangeRole {
     exchange_->a_camera = cameras_.find(content->camera_hash);
     if (exchange_->a_camera) exchange_->a_points = surface_of(*content, *exchange_->a_camera);
     if (!exchange_->a_points) {
-      out.problems.push_back(peer_ + ": camera not known, or samples outside of its image");
+      out.problems.push_back({peer_, "camera not known, or samples outside of its image"});
     }
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(message));
     exchange_->deadline = now + options_.step_timeout;
@@ -136,7 +136,7 @@ class SamplesDependent final : public ExchangeRole {
     }
     const Result<PoseRequest> request = decode_request(message.data);
     if (!request) {
-      out.problems.push_back(peer_ + ": " + request.reason());
+      out.problems.push_back({peer_, request.reason()});
       return send_whole(request.reason(), now, out);
     }
     if (request->points_iteration > exchange_->iteration) {
@@ -161,7 +161,7 @@ class SamplesDependent final : public ExchangeRole {
       return send_whole("pose rejected: " + describe(pose.verdict), now, out, pose.verdict);
     }
     if (!is_rigid(pose.motion) || !pose.covariance.allFinite() || !exchange_->a_camera) {
-      out.problems.push_back(peer_ + ": accepted pose that is not a pose");
+      out.problems.push_back({peer_, "accepted pose that is not a pose"});
       return send_whole("pose could not be read", now, out);
     }
     FrameDecision sparse;

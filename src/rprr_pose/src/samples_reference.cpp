@@ -213,7 +213,7 @@ class SamplesReference final : public ExchangeRole {
   }
 
   void refuse(const std::string& why, RoleOutput& out) {
-    out.problems.push_back(peer_ + ": " + why);
+    out.problems.push_back({peer_, why});
     finish({PoseStatus::kMalformed}, out);
   }
 

@@ -76,7 +76,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
       nh_, private_nh, options_.robot, input, health_, [this](const RgbdFramePtr& frame) {
         worker_->post([this, frame] {
           motion_.see(frame);
-          drive({}, [&](RoleOutput& out) { stage_->offer(frame, steady_now(), out); });
+          drive([&](RoleOutput& out) { stage_->offer(frame, steady_now(), out); });
         });
       });
 }
@@ -145,7 +145,7 @@ void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
   for (const ros::Time& stamp : message->references) radio.references.push_back(to_stamp(stamp));
   worker_->post([this, radio] {
     radio_told_ = steady_now();
-    drive({}, [&](RoleOutput& out) { stage_->set_radio(radio, steady_now(), out); });
+    drive([&](RoleOutput& out) { stage_->set_radio(radio, steady_now(), out); });
   });
 }
 
@@ -170,20 +170,19 @@ void ExchangeNode::set_reference(const std::string& peer, bool refer) {
 
 void ExchangeNode::take(const std::string& peer, const PoseMessage& message, double age) {
   clocks_.received(peer, message, age);
-  drive(peer, [&](RoleOutput& out) { stage_->receive(peer, message, steady_now(), out); });
+  drive([&](RoleOutput& out) { stage_->receive(peer, message, steady_now(), out); });
 }
 
 void ExchangeNode::on_tick() {
   // An encoder that is gone must not keep exchanges from beginning.
   if (radio_told_ != 0 && steady_now() - radio_told_ > kRadioSilence) {
     radio_told_ = 0;
-    drive({}, [&](RoleOutput& out) { stage_->set_radio({}, steady_now(), out); });
+    drive([&](RoleOutput& out) { stage_->set_radio({}, steady_now(), out); });
   }
-  drive({}, [&](RoleOutput& out) { stage_->tick(steady_now(), out); });
+  drive([&](RoleOutput& out) { stage_->tick(steady_now(), out); });
 }
 
-// peer: who brought it about; empty: nobody, then there is no problem with a message either.
-void ExchangeNode::drive(const std::string& peer, const std::function<void(RoleOutput&)>& action) {
+void ExchangeNode::drive(const std::function<void(RoleOutput&)>& action) {
   RoleOutput out;
   action(out);
   for (const PoseMessage& message : out.send) {
@@ -193,9 +192,10 @@ void ExchangeNode::drive(const std::string& peer, const std::function<void(RoleO
     }
   }
   for (const FrameDecision& decision : out.decisions) publish(decision);
-  for (const std::string& problem : out.problems) {
-    health_.warn("message of " + peer + " refused",
-                 problem +
+  // A message is often read later than it came, so the problem says whose message it was.
+  for (const MessageProblem& problem : out.problems) {
+    health_.warn("message of " + problem.peer + " refused",
+                 problem.peer + ": " + problem.text +
                      "; a message on a radio topic could not be used: check that all robots run "
                      "the same version and that nobody else publishes there");
   }

@@ -51,7 +51,7 @@ class ExchangeNode {
   void set_reference(const std::string& peer, bool refer);
   void take(const std::string& peer, const PoseMessage& message, double age);
   void on_tick();
-  void drive(const std::string& peer, const std::function<void(RoleOutput&)>& action);
+  void drive(const std::function<void(RoleOutput&)>& action);
   void publish(const FrameDecision& decision);
   void publish(const PoseMessage& message);
   void show(const std::string& peer, const PoseVerdict& verdict);

@@ -77,7 +77,7 @@ class Team {
 
  private:
   void take(const std::string& name, RoleOutput out) {
-    EXPECT_TRUE(out.problems.empty()) << out.problems.front();
+    EXPECT_TRUE(out.problems.empty()) << out.problems.front().text;
     for (PoseMessage& message : out.send) {
       previews += std::holds_alternative<PreviewMessage>(message) ? 1 : 0;
       said_.emplace_back(name, std::move(message));

@@ -280,9 +280,22 @@ TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
     reference->receive("b", message, 0, at_a);
   }
   EXPECT_FALSE(at_a.problems.empty());
+  for (const MessageProblem& problem : at_a.problems) EXPECT_EQ(problem.peer, "b") << problem.text;
   dependent->tick(from_seconds(1.0), at_b);  // gives up waiting
   for (Stamp stamp : {5000, 6000}) exchange(stamp);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
+}
+
+// A preview that waits for the reference's frame is read when that comes, not when it arrived.
+TEST_F(PreviewProtocol, APreviewThatIsReadLaterIsRefusedByItsSendersName) {
+  dependent->offer(frame_b(), 0, at_b);
+  auto message = std::get<PreviewMessage>(at_b.send.at(0));
+  message.data[0] = 0xFF;
+  reference->receive("b", message, 0, at_a);
+  reference->offer(frame_a(), 0, at_a);
+  reference->tick(1, at_a);
+  ASSERT_FALSE(at_a.problems.empty());
+  EXPECT_EQ(at_a.problems.front().peer, "b");
 }
 
 TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {

@@ -61,7 +61,7 @@ class Pair {
   }
 
   std::vector<FrameDecision> at_reference, at_dependent;
-  std::vector<std::string> problems;
+  std::vector<MessageProblem> problems;
   std::vector<RelativePoseMessage> poses;
   int messages = 0;
   std::size_t bytes = 0;
@@ -113,7 +113,7 @@ TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendSparse);
   ASSERT_TRUE(pair.at_dependent[0].peer_camera);
   EXPECT_EQ(camera_hash(*pair.at_dependent[0].peer_camera), camera_hash(kTestCamera));
-  EXPECT_TRUE(pair.problems.empty()) << pair.problems[0];
+  EXPECT_TRUE(pair.problems.empty()) << pair.problems[0].text;
 }
 
 TEST(SamplesProtocol, CountsItsBytesAndMessagesHonestly) {

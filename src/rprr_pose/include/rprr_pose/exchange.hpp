@@ -47,11 +47,17 @@ struct FrameDecision {
   float ms_pose = 0.0f;              ///< processor time of the exchange on this robot [ms]
 };
 
+/// A message of a peer that could not be used.
+struct MessageProblem {
+  std::string peer;
+  std::string text;  ///< what was wrong, for people
+};
+
 /// What a role wants done after it was given something.
 struct RoleOutput {
   std::vector<PoseMessage> send;
   std::vector<FrameDecision> decisions;
-  std::vector<std::string> problems;  ///< hostile or unexpected input, for diagnostics
+  std::vector<MessageProblem> problems;  ///< hostile or unexpected input, for diagnostics
 };
 
 /// What a role needs to know of its robot's radio.
