@@ -152,7 +152,14 @@ function(rprr_rostest NAME)
   add_dependencies(tests ${NAME})
   foreach(file ${TEST_FILES})
     add_rostest(test/${file}.test DEPENDENCIES ${NAME})
+    rprr_takes_seconds(rostest_test_${file}.test 20)
   endforeach()
+endfunction()
+
+# Where several tests run at once, the long ones begin first. NAME: type and name, as in
+# "rostest_test_x.test".
+function(rprr_takes_seconds NAME SECONDS)
+  set_tests_properties(_ctest_${PROJECT_NAME}_${NAME} PROPERTIES COST ${SECONDS})
 endfunction()
 
 function(rprr_test_target NAME)
