@@ -5,10 +5,8 @@ namespace rprr {
 
 void list_options(EncoderOptions& o, OptionTable& table) {
   table.group("The robot");
-  table.text("robot", o.robot, "This robot: /ROBOT/rprr/outgoing to /ROBOT/rprr/encoded")
-      .as_wiring()
-      .only_if([](const OptionValue& value) { return is_robot_name(std::get<std::string>(value)); },
-               kRobotNameRule);
+  table.robot("robot", o.robot, "This robot: /ROBOT/rprr/outgoing to /ROBOT/rprr/encoded")
+      .as_wiring();
   table.flag("link_recovery", o.link_recovery,
              "Make the subscription to the station's receipts anew when its host answers again "
              "after a silence; false: left to TCP, which may take as long again as the silence "

@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "rprr_eval/contact_sheet.hpp"
-#include "rprr_eval/exchange_log.hpp"
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/exchange/exchange_log.hpp"
+#include "rprr_eval/measure/metrics.hpp"
+#include "rprr_eval/report/contact_sheet.hpp"
 #include "rprr_ros/conversions.hpp"
 
 namespace rprr {

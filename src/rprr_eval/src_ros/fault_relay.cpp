@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "rprr_eval/fault_channel.hpp"
+#include "rprr_eval/exchange/fault_channel.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_wire/bytes.hpp"
 

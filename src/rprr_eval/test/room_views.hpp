@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "rprr_eval/frame_source.hpp"
+#include "rprr_eval/measure/frame_source.hpp"
 #include "rprr_geometry/motion.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"

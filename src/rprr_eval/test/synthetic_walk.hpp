@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rprr_sensor/tum_writer.hpp"
+#include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/belief.hpp"
+#include "rprr_eval/belief/belief.hpp"
 
 #include <gtest/gtest.h>
 

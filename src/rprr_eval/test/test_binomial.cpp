@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/binomial.hpp"
+#include "rprr_eval/measure/binomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/chi_square.hpp"
+#include "rprr_eval/measure/chi_square.hpp"
 
 #include <gtest/gtest.h>
 

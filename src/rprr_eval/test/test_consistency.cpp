@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/consistency.hpp"
+#include "rprr_eval/consistency/consistency.hpp"
 
 #include <gtest/gtest.h>
 

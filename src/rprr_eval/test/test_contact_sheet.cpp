@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/contact_sheet.hpp"
+#include "rprr_eval/report/contact_sheet.hpp"
 
 #include <gtest/gtest.h>
 

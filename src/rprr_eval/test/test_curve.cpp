@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/curve.hpp"
+#include "rprr_eval/curves/curve.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <random>
 #include <set>
 
-#include "rprr_eval/block_regions.hpp"
-#include "rprr_eval/codec_survey.hpp"
-#include "rprr_eval/depth_codec.hpp"
+#include "rprr_eval/codec/block_regions.hpp"
+#include "rprr_eval/codec/codec_survey.hpp"
+#include "rprr_eval/codec/depth_codec.hpp"
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_wire/bytes.hpp"
 

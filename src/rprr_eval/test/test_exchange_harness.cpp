@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/exchange_harness.hpp"
+#include "rprr_eval/exchange/exchange_harness.hpp"
 
 #include <gtest/gtest.h>
 
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 #include "rprr_geometry/motion.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_wire/camera_wire.hpp"

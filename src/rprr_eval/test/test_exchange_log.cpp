@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/exchange_log.hpp"
+#include "rprr_eval/exchange/exchange_log.hpp"
 
 #include <gtest/gtest.h>
 

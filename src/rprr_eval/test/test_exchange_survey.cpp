@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/exchange_survey.hpp"
+#include "rprr_eval/iterations/exchange_survey.hpp"
 
 #include <gtest/gtest.h>
 
 #include "room_views.hpp"
-#include "rprr_eval/exchange_registration.hpp"
+#include "rprr_eval/exchange/exchange_registration.hpp"
 
 namespace rprr {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "rprr_eval/fault_channel.hpp"
+#include "rprr_eval/exchange/fault_channel.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {

@@ -11,7 +11,7 @@
 
 #include "launch_process.hpp"
 #include "pair_topics.hpp"
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 #include "rprr_geometry/motion.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"

@@ -11,7 +11,7 @@
 
 #include "mutator.hpp"
 #include "rprr_codec/dhcm.hpp"
-#include "rprr_eval/exchange_harness.hpp"
+#include "rprr_eval/exchange/exchange_harness.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_radio/frame_chunk.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/methods.hpp"
+#include "rprr_eval/poses/methods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "room_views.hpp"
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 
 namespace rprr {
 namespace {

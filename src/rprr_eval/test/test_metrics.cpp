@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 #include "rprr_geometry/block_mask.hpp"
 
 #include <gtest/gtest.h>

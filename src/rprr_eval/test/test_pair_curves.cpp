@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/pair_curves.hpp"
+#include "rprr_eval/curves/pair_curves.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "rprr_eval/curve_comparison.hpp"
+#include "rprr_eval/curves/curve_comparison.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "synthetic_walk.hpp"
 

@@ -9,7 +9,7 @@
 #include "pair_topics.hpp"
 #include "radio_attacker.hpp"
 #include "recorded_pair.hpp"
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "rprr_view/provenance.hpp"
 #include "rprr_wire/camera_wire.hpp"

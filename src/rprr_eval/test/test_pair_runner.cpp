@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/pair_runner.hpp"
+#include "rprr_eval/pairs/pair_runner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/preview_timing.hpp"
+#include "rprr_eval/timing/preview_timing.hpp"
 
 #include <gtest/gtest.h>
 
 #include "room_views.hpp"
-#include "rprr_eval/metrics.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 
 namespace rprr {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/profile.hpp"
+#include "rprr_eval/profile/profile.hpp"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_eval/turntable.hpp"
+#include "rprr_eval/turntable/turntable.hpp"
 
 #include <gtest/gtest.h>
 

@@ -203,6 +203,12 @@ Option& OptionTable::text(std::string name, std::string& field, std::string help
   return add(std::move(option));
 }
 
+Option& OptionTable::robot(std::string name, std::string& field, std::string help) {
+  return text(std::move(name), field, std::move(help))
+      .only_if([](const OptionValue& value) { return is_robot_name(std::get<std::string>(value)); },
+               kRobotNameRule);
+}
+
 Option& OptionTable::texts(std::string name, std::vector<std::string>& field, std::string help) {
   Option option = plain_option(OptionKind::kTexts, std::move(name), std::move(help));
   option.get = [&field] { return OptionValue(field); };

@@ -44,10 +44,7 @@ void list_options(Options& o, OptionTable& table) {
                    "What stands where nothing is sent");
   table.word("codec", o.codec, {"jpeg", "pgf", "webp"}, "Codec of the colours");
   table.text("device", o.device, "Serial number; empty: the first");
-  table.text("robot", o.robot, "This robot")
-      .as_wiring()
-      .only_if([](const OptionValue& value) { return is_robot_name(std::get<std::string>(value)); },
-               "letters, digits and underscores");
+  table.robot("robot", o.robot, "This robot").as_wiring();
   table.texts("peers", o.peers, "Robots that it hears")
       .only_if(are_robot_names, "names of robots, none twice");
   table.numbers("translation", o.translation, {-1, 1}, "m", "Where the other camera is");

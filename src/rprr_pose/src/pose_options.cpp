@@ -108,10 +108,7 @@ void list_options(ExchangeOptions& o, OptionTable& table) {
 
 void list_options(ExchangeNodeOptions& o, OptionTable& table) {
   table.group("The robot");
-  table.text("robot", o.robot, "This robot; its topics are in /ROBOT")
-      .as_wiring()
-      .only_if([](const OptionValue& value) { return is_robot_name(std::get<std::string>(value)); },
-               kRobotNameRule);
+  table.robot("robot", o.robot, "This robot; its topics are in /ROBOT").as_wiring();
   table.texts("peers", o.peers, "Robots that this one may exchange with")
       .as_wiring()
       .only_if(are_robot_names, kRobotNamesRule);

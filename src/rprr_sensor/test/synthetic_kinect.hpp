@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/pair_processor.hpp"
+#include "rprr_sensor/cameras/pair_processor.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"
 

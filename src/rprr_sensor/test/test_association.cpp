@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/association.hpp"
+#include "rprr_sensor/recordings/association.hpp"
 
 #include <gtest/gtest.h>
 

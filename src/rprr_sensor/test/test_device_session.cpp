@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/device_session.hpp"
+#include "rprr_sensor/cameras/device_session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/frame_pairing.hpp"
+#include "rprr_sensor/cameras/frame_pairing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "camera_topics.hpp"
 #include "child_process.hpp"
 #include "rprr_ros/conversions.hpp"
-#include "rprr_sensor/tum_writer.hpp"
+#include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
 #include "rprr_synthetic/random.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"

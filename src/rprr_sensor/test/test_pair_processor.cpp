@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Also DepthRegistration and Rectification, which it is made of.
-#include "rprr_sensor/pair_processor.hpp"
+#include "rprr_sensor/cameras/pair_processor.hpp"
 
 #include <gtest/gtest.h>
 

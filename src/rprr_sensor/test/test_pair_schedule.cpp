@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/pair_schedule.hpp"
+#include "rprr_sensor/recordings/pair_schedule.hpp"
 
 #include <gtest/gtest.h>
 

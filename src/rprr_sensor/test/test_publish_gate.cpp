@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/publish_gate.hpp"
+#include "rprr_sensor/cameras/publish_gate.hpp"
 
 #include <gtest/gtest.h>
 

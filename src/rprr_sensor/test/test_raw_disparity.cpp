@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/raw_disparity.hpp"
+#include "rprr_sensor/cameras/raw_disparity.hpp"
 
 #include <gtest/gtest.h>
 

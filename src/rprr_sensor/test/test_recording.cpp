@@ -8,7 +8,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/tum_writer.hpp"
+#include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
 #include "rprr_synthetic/random.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "camera_options.hpp"
-#include "player_options.hpp"
+#include "cameras/camera_options.hpp"
+#include "recordings/player_options.hpp"
 #include "rprr_synthetic/option_check.hpp"
 
 namespace rprr {

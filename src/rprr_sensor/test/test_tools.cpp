@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
-#include "rprr_sensor/tum_folder.hpp"
+#include "rprr_sensor/recordings/tum_folder.hpp"
 #include "rprr_sensor_ros/recording.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/tum_folder.hpp"
+#include "rprr_sensor/recordings/tum_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rprr_geometry/motion.hpp"
-#include "rprr_sensor/tum_writer.hpp"
+#include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_synthetic/random.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "rprr_wire/camera_wire.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_sensor/usb_access.hpp"
+#include "rprr_sensor/cameras/usb_access.hpp"
 
 #include <gtest/gtest.h>
 

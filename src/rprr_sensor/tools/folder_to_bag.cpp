@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "progress.hpp"
-#include "rprr_sensor/tum_folder.hpp"
+#include "rprr_sensor/recordings/tum_folder.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "progress.hpp"
-#include "rprr_sensor/tum_writer.hpp"
+#include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"
 

@@ -97,6 +97,8 @@ class OptionTable {
   Option& word(std::string name, std::string& field, std::vector<std::string> words,
                std::string help);
   Option& text(std::string name, std::string& field, std::string help);
+  /// A text that is_robot_name() accepts.
+  Option& robot(std::string name, std::string& field, std::string help);
   Option& texts(std::string name, std::vector<std::string>& field, std::string help);
   template <std::size_t count>
   Option& numbers(std::string name, std::array<double, count>& field, OptionRange range,
