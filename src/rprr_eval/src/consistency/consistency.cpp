@@ -2,12 +2,12 @@
 #include "rprr_eval/consistency/consistency.hpp"
 
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "rprr_eval/exchange/exchange_registration.hpp"
-#include "rprr_eval/measure/chi_square.hpp"
 #include "rprr_eval/measure/median.hpp"
 #include "rprr_eval/turntable/turntable.hpp"
 #include "rprr_geometry/motion.hpp"
@@ -18,6 +18,12 @@
 
 namespace rprr {
 namespace {
+
+// The value that a chi-square variable of so many degrees of freedom does not exceed with that
+// probability.
+double quantile(double probability, double freedom) {
+  return boost::math::quantile(boost::math::chi_squared(freedom), probability);
+}
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -133,17 +139,17 @@ NormalisedErrors normalised_errors(const std::vector<double>& errors, int freedo
   out.freedom = freedom;
   if (errors.empty()) return out;
   const auto count = static_cast<double>(errors.size());
-  const double most = chi_square_quantile(0.95, freedom);
+  const double most = quantile(0.95, freedom);
   for (const double error : errors) {
     out.mean += error / count;
     out.share_within_95 += error <= most ? 1.0 / count : 0.0;
   }
   // The sum of N of them has N times the degrees of freedom.
-  out.mean_from = chi_square_quantile(0.025, freedom * count) / count;
-  out.mean_to = chi_square_quantile(0.975, freedom * count) / count;
+  out.mean_from = quantile(0.025, freedom * count) / count;
+  out.mean_to = quantile(0.975, freedom * count) / count;
   out.median = median(errors);
   out.scale_by_mean = out.mean / freedom;
-  out.scale_by_median = out.median / chi_square_quantile(0.5, freedom);
+  out.scale_by_median = out.median / quantile(0.5, freedom);
   return out;
 }
 
