@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pluginlib/class_list_macros.hpp>
 
-#include "../drivers/freenect_driver.hpp"
+#include "cameras/freenect_driver.hpp"
 #include "cameras/rgbd_camera.hpp"
 
 namespace rprr {

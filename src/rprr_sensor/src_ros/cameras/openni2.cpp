@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pluginlib/class_list_macros.hpp>
 
-#include "../drivers/openni2_driver.hpp"
+#include "cameras/openni2_driver.hpp"
 #include "cameras/rgbd_camera.hpp"
 
 namespace rprr {
