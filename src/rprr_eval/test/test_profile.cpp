@@ -9,7 +9,7 @@
 
 #include "rprr_geometry/option_text.hpp"
 #include "rprr_geometry/profile_keys.hpp"
-#include "rprr_ros/rgbd_subscriber.hpp"
+#include "rprr_ros/input_options.hpp"
 #include "rprr_synthetic/option_check.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 

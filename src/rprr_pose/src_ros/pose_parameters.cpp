@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include "rprr_ros/parameters.hpp"
+#include "tf_prior.hpp"
 
 namespace rprr {
 

@@ -8,10 +8,11 @@
 
 #include "rprr_geometry/option_table.hpp"
 #include "rprr_pose/pose_options.hpp"
-#include "rprr_ros/rgbd_subscriber.hpp"
-#include "tf_prior.hpp"
+#include "rprr_ros/input_options.hpp"
 
 namespace rprr {
+
+struct TfPriorOptions;
 
 struct ExchangeParameters {
   ExchangeNodeOptions node;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_ros/health.hpp"
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/console.h>
+
 namespace rprr {
 namespace {
 
@@ -11,12 +14,16 @@ constexpr double kShownFor = 10.0;
 
 Health::Health(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
                const std::string& hardware)
-    : name_(name), updater_(nh, private_nh, private_nh.getNamespace()) {
-  updater_.setHardwareID(hardware);
-  updater_.add(name, this, &Health::fill);
+    : name_(name),
+      updater_(std::make_unique<diagnostic_updater::Updater>(nh, private_nh,
+                                                             private_nh.getNamespace())) {
+  updater_->setHardwareID(hardware);
+  updater_->add(name, this, &Health::fill);
   timer_ = nh.createWallTimer(ros::WallDuration(1.0),
-                              [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+                              [this](const ros::WallTimerEvent&) { updater_->force_update(); });
 }
+
+Health::~Health() = default;
 
 void Health::warn(const std::string& key, const std::string& text) {
   report(key, text, false);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cameras/camera_options.hpp"
+#include "cameras/relay_options.hpp"
 #include "recordings/player_options.hpp"
 #include "rprr_synthetic/option_check.hpp"
 

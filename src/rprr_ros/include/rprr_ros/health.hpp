@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/ros.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+#include <ros/wall_timer.h>
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+
+namespace diagnostic_updater {
+class DiagnosticStatusWrapper;
+class Updater;
+}  // namespace diagnostic_updater
 
 namespace rprr {
 
@@ -18,6 +25,7 @@ class Health {
   /// hardware is the robot (or station) that the nodelet serves; name is the nodelet's.
   Health(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
          const std::string& hardware);
+  ~Health();
 
   /// Something is wrong: text names the topic, what was expected and the remedy. Logged at most
   /// once every five seconds for a key; /diagnostics shows it until ten seconds after its last
@@ -49,7 +57,7 @@ class Health {
   std::map<std::string, Problem> problems_;
   std::map<std::string, std::uint64_t> counters_;
   std::map<std::string, std::string> values_;
-  diagnostic_updater::Updater updater_;
+  std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::WallTimer timer_;
 };
 

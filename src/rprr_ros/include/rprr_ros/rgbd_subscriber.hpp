@@ -13,20 +13,11 @@
 #include <mutex>
 #include <string>
 
-#include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_options.hpp"
 
 namespace rprr {
-
-/// How a robot's own camera is listened to.
-struct InputOptions {
-  double max_stamp_difference = 0.02;  ///< between colour and depth of one frame [s]
-  double depth_unit = 0.0002;          ///< that 32FC1 depth is quantised to [m per count]
-  std::string image_transport = "raw";
-};
-
-void list_options(InputOptions& options, OptionTable& table);
 
 /// Subscribes /<robot>/camera/rgb/image_rect_color, .../rgb/camera_info and
 /// .../depth_registered/image_rect, pairs colour and depth by stamp and checks them. What does not
