@@ -199,7 +199,7 @@ bool get_lengths(ByteReader& reader, const EncodedFrame& frame, Lengths& lengths
 bool get_reference(ByteReader& reader, int largest, EncodedFrame& frame) {
   if (!get_text(reader, frame.reference) || frame.reference.empty()) return false;
   frame.reference_stamp = reader.get<Stamp>();
-  return get_pose(reader, largest, frame.motion);
+  return get_pose(reader, largest, frame.b_from_a);
 }
 
 Bytes copy_of(ByteView view) {
@@ -223,7 +223,7 @@ Bytes serialise(const EncodedFrame& frame, EncodedSizes* sizes) {
   if (frame.sparse) {
     put_text(writer, frame.reference);
     writer.put(frame.reference_stamp);
-    largest = put_pose(writer, frame.motion);
+    largest = put_pose(writer, frame.b_from_a);
   }
   writer.bytes()[kFlagsAt] = flags_of(frame, largest);
   put_text(writer, frame.colour_codec);

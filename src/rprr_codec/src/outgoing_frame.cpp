@@ -11,7 +11,7 @@ EncodedFrame frame_to_encode(const OutgoingFrame& outgoing, bool whole) {
   if (!frame.sparse) return frame;
   frame.reference = outgoing.reference;
   frame.reference_stamp = outgoing.reference_stamp;
-  frame.motion = outgoing.b_from_a;
+  frame.b_from_a = outgoing.b_from_a;
   frame.mask = outgoing.mask;
   frame.depth_mask = outgoing.depth_mask;
   return frame;

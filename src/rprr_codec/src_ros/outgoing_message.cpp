@@ -36,7 +36,7 @@ std::string read_reference(const rprr_msgs::OutgoingFrame& message, const RgbdFr
   outgoing.reference = message.reference;
   outgoing.reference_stamp = to_stamp(message.reference_stamp);
   outgoing.b_from_a = pose_from_fields(message.translation, message.rotation);
-  if (!is_rigid(outgoing.b_from_a)) return "sparse frame with a motion that is not rigid";
+  if (!is_rigid(outgoing.b_from_a)) return "sparse frame with a pose that is not rigid";
   const BlockGrid grid(frame.camera.width, frame.camera.height);
   Result<BlockMask> mask = decode_mask(message.mask, grid);
   if (!mask) return mask.reason();

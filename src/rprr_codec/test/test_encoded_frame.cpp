@@ -27,7 +27,7 @@ EncodedFrame example(bool sparse) {
   if (sparse) {
     frame.reference = "eyebug_a";
     frame.reference_stamp = 1234567890123456789;
-    frame.motion = exp_se3((Twist() << 0.1, -0.2, 0.3, 0.05, 0.4, -0.02).finished());
+    frame.b_from_a = exp_se3((Twist() << 0.1, -0.2, 0.3, 0.05, 0.4, -0.02).finished());
     frame.mask = synthetic::some_blocks(BlockGrid(640, 480), 0.3);
   }
   return frame;
@@ -51,7 +51,7 @@ TEST(EncodedFrame, ComesBack) {
     EXPECT_EQ(back->sparse, sparse);
     EXPECT_EQ(back->reference, frame.reference);
     EXPECT_EQ(back->reference_stamp, frame.reference_stamp);
-    EXPECT_LT((back->motion.matrix() - frame.motion.matrix()).cwiseAbs().maxCoeff(), 5e-9);
+    EXPECT_LT((back->b_from_a.matrix() - frame.b_from_a.matrix()).cwiseAbs().maxCoeff(), 5e-9);
     EXPECT_TRUE(back->mask == frame.mask);
     EXPECT_EQ(back->depth, frame.depth);
     EXPECT_EQ(back->colour, frame.colour);
@@ -70,12 +70,12 @@ TEST(EncodedFrame, EveryRotationComesBack) {
     Twist twist = Twist::Zero();
     for (int i = 0; i < 6; ++i) twist[i] = trial % 7 == i ? M_PI : any(random);
     if (trial % 3 == 0) twist.tail<3>() = Eigen::Vector3d::Unit(trial % 9 / 3) * M_PI;
-    frame.motion = exp_se3(twist);
+    frame.b_from_a = exp_se3(twist);
     const Result<EncodedFrame> back = parse_encoded_frame(serialise(frame));
     ASSERT_TRUE(back) << back.reason();
-    const Pose error = back->motion * frame.motion.inverse();
+    const Pose error = back->b_from_a * frame.b_from_a.inverse();
     EXPECT_LT((error.rotation() - Eigen::Matrix3d::Identity()).norm(), 1e-13);
-    EXPECT_LT((back->motion.translation() - frame.motion.translation()).norm(), 1e-8);
+    EXPECT_LT((back->b_from_a.translation() - frame.b_from_a.translation()).norm(), 1e-8);
   }
 }
 
@@ -219,9 +219,10 @@ TEST(EncodedFrame, WhatMakesNoSenseIsRefusedThoughSealed) {
     EXPECT_FALSE(parse_encoded_frame(serialise(frame))) << what;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refused([&](EncodedFrame& f) { f.motion.translation().x() = nan; }, "translation of NaN");
-  refused([&](EncodedFrame& f) { f.motion.translation().x() = 1e300; }, "translation out of space");
-  refused([&](EncodedFrame& f) { f.motion.matrix().setConstant(nan); }, "motion of NaN");
+  refused([&](EncodedFrame& f) { f.b_from_a.translation().x() = nan; }, "translation of NaN");
+  refused([&](EncodedFrame& f) { f.b_from_a.translation().x() = 1e300; },
+          "translation out of space");
+  refused([&](EncodedFrame& f) { f.b_from_a.matrix().setConstant(nan); }, "motion of NaN");
   refused([](EncodedFrame& f) { f.camera.fx = -1.0; }, "negative focal length");
   refused([](EncodedFrame& f) { f.camera.width = 0; }, "no width");
   refused([](EncodedFrame& f) { f.camera.width = 648; }, "mask of another grid");
@@ -253,7 +254,7 @@ TEST(EncodedFrame, HostileBytesWithAValidChecksumNeverCrash) {
     const Result<EncodedFrame> frame = parse_encoded_frame(bytes);
     if (!frame) continue;
     EXPECT_TRUE(frame->camera.valid());
-    EXPECT_TRUE(is_rigid(frame->motion));
+    EXPECT_TRUE(is_rigid(frame->b_from_a));
     EXPECT_LE(frame->reference.size(), 64u);
     EXPECT_TRUE(frame->base_reduction == 0 || is_base_reduction(frame->base_reduction));
     EXPECT_EQ(frame->base_reduction == 0, frame->base.empty());

@@ -139,7 +139,7 @@ TEST_F(Encoder, ASparseFrameHoldsItsBlocksAndItsMotion) {
   EXPECT_TRUE(frame->sparse);
   EXPECT_EQ(frame->reference, "eyebug_a");
   EXPECT_EQ(frame->reference_stamp, to_stamp(ros::Time(99, 1)));
-  EXPECT_LT((frame->motion.matrix() - motion_.matrix()).cwiseAbs().maxCoeff(), 5e-9);
+  EXPECT_LT((frame->b_from_a.matrix() - motion_.matrix()).cwiseAbs().maxCoeff(), 5e-9);
   EXPECT_TRUE(frame->mask == mask_);
   EXPECT_EQ(frame->report.blocks_predicted, 11);
   EXPECT_GT(frame->report.independent_bytes_depth, frame->depth.size());

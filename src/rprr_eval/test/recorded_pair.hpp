@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_ros/conversions.hpp"
 
 namespace rprr {
@@ -71,7 +71,7 @@ inline Pose true_pose(const RecordedView& view) {
   return make_pose({p.x, p.y, p.z}, {q.x, q.y, q.z, q.w});
 }
 inline Pose true_motion(const Moment& moment) {
-  return relative_motion(true_pose(moment.at(kA)), true_pose(moment.at(kB)));
+  return relative_pose_of(true_pose(moment.at(kA)), true_pose(moment.at(kB)));
 }
 
 /// Plays what a bag holds of one camera, at stamps of the test's choice.

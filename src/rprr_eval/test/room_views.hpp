@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "rprr_eval/measure/frame_source.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"
 #include "rprr_wire/camera_wire.hpp"
@@ -23,7 +23,7 @@ inline RoomViews room_views(double metres, double degrees) {
   const Pose at_a = look_along({0.2, 0.1, 1.3}, 0.4, -0.2, 0.0);
   const Pose at_b = look_along({0.2, 0.1 + metres, 1.3}, 0.4 + degrees * M_PI / 180.0, -0.2, 0.0);
   RoomViews views;
-  views.truth = relative_motion(at_a, at_b);
+  views.truth = relative_pose_of(at_a, at_b);
   const auto fill = [&](RgbdFrame& frame, const Pose& pose, std::uint32_t noise) {
     const RgbdImage image = sense(room, sensor, pose, noise);
     frame.stamp = from_seconds(1.0);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rprr_eval/measure/metrics.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 #include "rprr_wire/camera_wire.hpp"
 #include "synthetic_walk.hpp"
@@ -39,8 +39,8 @@ TEST(ExchangeHarness, NeighboursOfAWalkAgreeOnTheTruePose) {
   const ExchangeOutcome outcome = harness.run(frame_of(a, 1000, "a"), frame_of(b, 1000, "b"));
   ASSERT_TRUE(outcome.pose);
   EXPECT_TRUE(outcome.pose->verdict.accepted()) << describe(outcome.pose->verdict);
-  const PoseError error =
-      pose_error(outcome.pose->motion, relative_motion(a.world_from_camera, b.world_from_camera));
+  const PoseError error = pose_error(outcome.pose->b_from_a,
+                                     relative_pose_of(a.world_from_camera, b.world_from_camera));
   EXPECT_LT(error.metres, 0.04);
   EXPECT_LT(error.degrees, 1.5);
   ASSERT_FALSE(outcome.at_reference.empty()) << "a is told to predict";
@@ -85,7 +85,7 @@ TEST(ExchangeHarness, TheSameFramesLeadToTheSameOutcome) {
   const ExchangeOutcome second = run();
   ASSERT_TRUE(first.pose && second.pose);
   EXPECT_EQ(first.bytes, second.bytes);
-  EXPECT_TRUE(first.pose->motion.matrix() == second.pose->motion.matrix());
+  EXPECT_TRUE(first.pose->b_from_a.matrix() == second.pose->b_from_a.matrix());
 }
 
 TEST(ExchangeHarness, ViewsThatShareNothingSendBWhole) {

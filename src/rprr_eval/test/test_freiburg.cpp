@@ -12,7 +12,7 @@
 #include "launch_process.hpp"
 #include "pair_topics.hpp"
 #include "rprr_eval/measure/metrics.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "rprr_view/provenance.hpp"
@@ -128,9 +128,9 @@ TEST(Freiburg, BagOfTheBenchmarksShapeIsPlayedAsTwoRobots) {
     EXPECT_EQ(topics.depth.at(stamp)->header.frame_id, "eyebug_b_rprr_optical_frame");
     const auto& pose = *topics.pose.at(stamp);
     EXPECT_EQ(pose.header.frame_id, "eyebug_a_rgb_optical_frame") << "frames are cleaned";
-    const Pose motion = relative_motion(walk_frame(kWalk[k]).world_from_camera,
-                                        walk_frame(kWalk[k + 1]).world_from_camera);
-    const PoseError error = pose_error(pose_from_fields(pose.translation, pose.rotation), motion);
+    const Pose b_from_a = relative_pose_of(walk_frame(kWalk[k]).world_from_camera,
+                                           walk_frame(kWalk[k + 1]).world_from_camera);
+    const PoseError error = pose_error(pose_from_fields(pose.translation, pose.rotation), b_from_a);
     EXPECT_LT(error.metres, 0.04);
     EXPECT_LT(error.degrees, 1.5);
   }

@@ -121,7 +121,7 @@ TEST(HostileRadio, TheStationServesWhoIsHonest) {
     for (const RebuiltFrame& frame : output.frames) {
       EXPECT_EQ(frame.bgr.size(), frame.depth.counts.size());
       EXPECT_LE(frame.bgr.total(), options.largest_image);
-      EXPECT_TRUE(frame.motion.matrix().allFinite());
+      EXPECT_TRUE(frame.b_from_a.matrix().allFinite());
     }
   });
   EXPECT_GT(rebuilt, 100u) << "some of it got far";
@@ -244,7 +244,7 @@ class Exchange {
       using Kind = FrameDecision::Action;
       const bool sparse = decision.action == Kind::kSendSparse;
       if (sparse || decision.action == Kind::kPredict) {
-        EXPECT_TRUE(is_rigid(decision.pose.motion));
+        EXPECT_TRUE(is_rigid(decision.pose.b_from_a));
         EXPECT_TRUE(decision.pose.covariance.allFinite());
       }
       if (at_a) continue;
@@ -285,8 +285,8 @@ class Exchange {
                     mutator.once_in(2) ? std::nanf("") : -1e30f,
                     mutator.once_in(2) ? std::numeric_limits<float>::infinity() : 0.0f};
     if (mutator.once_in(2)) {
-      pose.motion.matrix()(static_cast<int>(mutator.below(3)), static_cast<int>(mutator.below(4))) =
-          numbers[mutator.below(5)];
+      pose.b_from_a.matrix()(static_cast<int>(mutator.below(3)),
+                             static_cast<int>(mutator.below(4))) = numbers[mutator.below(5)];
     }
     if (mutator.once_in(2)) pose.covariance(2, 3) = numbers[mutator.below(5)];
   }

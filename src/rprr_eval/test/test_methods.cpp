@@ -34,7 +34,7 @@ TEST(Methods, FindASmallMotionInTheRoom) {
   ASSERT_TRUE(made) << made.reason();
   for (const auto& method : *made) {
     const RegistrationResult result = method->align(views.a, views.b, Pose::Identity());
-    const PoseError error = pose_error(result.motion, views.truth);
+    const PoseError error = pose_error(result.b_from_a, views.truth);
     EXPECT_TRUE(is_right(error)) << method->name() << ": " << error.metres << " m, "
                                  << error.degrees << " deg";
     EXPECT_TRUE(result.accepted) << method->name();

@@ -127,8 +127,8 @@ TEST(DepthQualityTest, NothingIsZeroNotNan) {
 TEST(Overlap, OfSyntheticPlanes) {
   const DepthFrame wall = plane(2000);
   const double width = 2.0 * kCamera.width / kCamera.fx;  // metres of the wall in view
-  const auto of = [&](const DepthFrame& a, const DepthFrame& b, const Pose& m_ab) {
-    return overlap(a, kCamera, b, kCamera, m_ab);
+  const auto of = [&](const DepthFrame& a, const DepthFrame& b, const Pose& b_from_a) {
+    return overlap(a, kCamera, b, kCamera, b_from_a);
   };
   EXPECT_EQ(of(wall, wall, Pose::Identity()), 1.0);
   EXPECT_NEAR(of(wall, wall, shift(0.5 * width)), 0.5, 0.03);

@@ -106,7 +106,7 @@ TEST(Pick, IsTheSameForTheSameSeedAndWithoutRepeats) {
 // A record of a pair whose estimate is so many metres off.
 PairRecord record(double metres, bool accepted, double ms = 1.0, double overlap = 1.0) {
   RegistrationResult result;
-  result.motion.translation().x() = metres;
+  result.b_from_a.translation().x() = metres;
   result.accepted = accepted;
   return make_record({0, 1, overlap, Pose::Identity()}, result, ms);
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 
 namespace rprr {
 namespace {
@@ -26,9 +26,9 @@ class Oracle final : public Registration {
     RegistrationResult result;
     result.iterations = 3;
     result.accepted = result.converged = degrees < limit_;
-    result.motion = result.converged
-                        ? relative_motion(turntable_camera(0.0), turntable_camera(degrees))
-                        : start;
+    result.b_from_a = result.converged
+                          ? relative_pose_of(turntable_camera(0.0), turntable_camera(degrees))
+                          : start;
     return result;
   }
 
@@ -38,8 +38,8 @@ class Oracle final : public Registration {
 
 TEST(Turntable, TurnsTheCameraRoundTheTableByTheAngle) {
   for (const double degrees : {5.0, 40.0}) {
-    const Pose m_ab = relative_motion(turntable_camera(0.0), turntable_camera(degrees));
-    EXPECT_NEAR(rotation_angle(m_ab.linear()) * 180.0 / M_PI, degrees, 1e-9);
+    const Pose b_from_a = relative_pose_of(turntable_camera(0.0), turntable_camera(degrees));
+    EXPECT_NEAR(rotation_angle(b_from_a.linear()) * 180.0 / M_PI, degrees, 1e-9);
   }
   // The middle of the table stays on the optical axis.
   const Eigen::Vector3d gaze = turntable_camera(25.0).inverse() * Eigen::Vector3d(0.0, 0.0, 0.08);

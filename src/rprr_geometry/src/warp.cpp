@@ -111,9 +111,9 @@ void find_covered(const std::uint16_t* __restrict counts, const float* __restric
 }
 
 template <Footprint kFootprint>
-void warp(const DepthFrame& source, const Camera& from, const Camera& to, const Pose& motion,
-          WarpedDepth& out) {
-  const PixelMap to_target(from, to, motion, source.unit);
+void warp(const DepthFrame& source, const Camera& from, const Camera& to,
+          const Pose& target_from_source, WarpedDepth& out) {
+  const PixelMap to_target(from, to, target_from_source, source.unit);
   const auto width = static_cast<float>(to.width);
   const auto height = static_cast<float>(to.height);
   const auto half_at_equal_depth =
@@ -147,14 +147,14 @@ void warp(const DepthFrame& source, const Camera& from, const Camera& to, const 
 }  // namespace
 
 void warp_depth(const DepthFrame& source, const Camera& source_camera, const Camera& target_camera,
-                const Pose& motion, WarpedDepth& out, Footprint footprint) {
+                const Pose& target_from_source, WarpedDepth& out, Footprint footprint) {
   out.metres.create(target_camera.height, target_camera.width, CV_32FC1);
   out.source.create(target_camera.height, target_camera.width, CV_32SC1);
   out.metres.setTo(0);
   out.source.setTo(-1);
   const auto run =
       footprint == Footprint::kNearest ? warp<Footprint::kNearest> : warp<Footprint::kSurface>;
-  run(source, source_camera, target_camera, motion, out);
+  run(source, source_camera, target_camera, target_from_source, out);
 }
 
 }  // namespace rprr

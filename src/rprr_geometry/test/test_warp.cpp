@@ -28,10 +28,10 @@ TEST(Warp, IdentityReproducesTheFrame) {
 // b stands 0.2 m to the right of a: p_b = p_a - (0.2, 0, 0), so things move left in b's image by
 // fx * 0.2 / z pixels.
 TEST(Warp, KnownMotionMovesPixelsTheRightWay) {
-  Pose m_ab = Pose::Identity();
-  m_ab.translation().x() = -0.2;
+  Pose b_from_a = Pose::Identity();
+  b_from_a.translation().x() = -0.2;
   WarpedDepth out;
-  warp_depth(plane(2000), kA, kA, m_ab, out);
+  warp_depth(plane(2000), kA, kA, b_from_a, out);
   EXPECT_EQ(out.source.at<int>(20, 10), 20 * 64 + 16);
   EXPECT_EQ(out.source.at<int>(20, 63), -1) << "b sees beyond a's right edge";
 }
@@ -39,10 +39,10 @@ TEST(Warp, KnownMotionMovesPixelsTheRightWay) {
 TEST(Warp, TheNearestSurfaceWins) {
   DepthFrame frame = plane(2000);
   frame.counts(cv::Rect(30, 0, 4, 48)).setTo(1000);
-  Pose m_ab = Pose::Identity();
-  m_ab.translation().x() = -0.2;
+  Pose b_from_a = Pose::Identity();
+  b_from_a.translation().x() = -0.2;
   WarpedDepth out;
-  warp_depth(frame, kA, kA, m_ab, out);
+  warp_depth(frame, kA, kA, b_from_a, out);
   EXPECT_NEAR(out.metres.at<float>(20, 18), 1.0f, 1e-5f) << "the bar moved by 12 pixels";
 }
 
@@ -56,10 +56,10 @@ TEST(Warp, BothCamerasIntrinsicsAreUsed) {
 }
 
 TEST(Warp, PointsBehindTheTargetAreDropped) {
-  Pose m_ab = Pose::Identity();
-  m_ab.translation().z() = -3.0;
+  Pose b_from_a = Pose::Identity();
+  b_from_a.translation().z() = -3.0;
   WarpedDepth out;
-  warp_depth(plane(2000), kA, kA, m_ab, out);
+  warp_depth(plane(2000), kA, kA, b_from_a, out);
   EXPECT_EQ(cv::countNonZero(out.metres), 0);
 }
 

@@ -132,9 +132,9 @@ CameraMotion told_by(const Found& found) {
   const double sigma_metres = worst_sigma(covariance.topLeftCorner<3, 3>());
   const double sigma_radians = worst_sigma(covariance.bottomRightCorner<3, 3>());
   if (sigma_metres > kWorstMetres || sigma_radians > kWorstRadians) return out;
-  out.motion = found.later_to_earlier.inverse();
+  out.later_from_earlier = found.later_to_earlier.inverse();
   out.metres = found.later_to_earlier.translation().norm();
-  out.radians = rotation_angle(out.motion.linear());
+  out.radians = rotation_angle(out.later_from_earlier.linear());
   out.shared = shared(found);
   const bool still = out.metres < kStillMetres + kSigmas * sigma_metres &&
                      out.radians < kStillRadians + kSigmas * sigma_radians;

@@ -101,9 +101,9 @@ std::size_t CoarseMatch::land(const Eigen::Matrix3f& rotation, const Eigen::Vect
   return n;
 }
 
-Eigen::Vector3d CoarseMatch::middle(const Pose& motion) const {
-  const Eigen::Matrix3f rotation = motion.linear().cast<float>();
-  const Eigen::Vector3f translation = motion.translation().cast<float>();
+Eigen::Vector3d CoarseMatch::middle(const Pose& fixed_from_moving) const {
+  const Eigen::Matrix3f rotation = fixed_from_moving.linear().cast<float>();
+  const Eigen::Vector3f translation = fixed_from_moving.translation().cast<float>();
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int n = 0;
   for (std::size_t i = 0; i < moving_.size(); ++i) {

@@ -49,7 +49,7 @@ std::shared_ptr<const ReceivedPreview> decode(const Result<PreviewContent>& cont
 
 }  // namespace
 
-Director::Director(std::string name, const PreviewOptions& options, MotionPrior prior)
+Director::Director(std::string name, const PreviewOptions& options, PosePrior prior)
     : name_(std::move(name)),
       options_(options),
       prior_(std::move(prior)),
@@ -226,7 +226,7 @@ std::string Director::estimate(const Question& question, const RgbdFrame& frame,
       estimator_.estimate(frame, preview, *camera, worth_trying(question, frames));
   RelativePoseMessage& pose = attempt.pose;
   pose.verdict = found.verdict;
-  pose.motion = found.motion;
+  pose.b_from_a = found.b_from_a;
   pose.covariance = found.covariance;
   pose.iterations = found.searched ? static_cast<std::uint16_t>(1 + found.starts) : 1;
   pose.inliers = static_cast<std::uint16_t>(std::min(65535, found.b_in_a.consistent));
@@ -243,22 +243,22 @@ void Director::remember(const Question& question, const RelativePoseMessage& pos
   if (!dependent.last_is_fresh) return;
   const FrameNames frames{pose.stamp, pose.frame_id, question.message.stamp,
                           question.message.frame_id};
-  dependent.last_accepted = KnownMotion{frames, pose.motion};
+  dependent.last_accepted = KnownPose{frames, pose.b_from_a};
 }
 
 // What the prior proposes comes first: it knows how the robots moved since the last pose. The last
 // pose itself is worth trying only while exchanges succeed.
 std::vector<Pose> Director::worth_trying(const Question& question, const FrameNames& frames) const {
-  const std::optional<KnownMotion>& last = question.dependent.last_accepted;
+  const std::optional<KnownPose>& last = question.dependent.last_accepted;
   std::vector<Pose> poses;
   if (prior_) poses = prior_(question.peer, frames, last);
   poses.erase(
       std::remove_if(poses.begin(), poses.end(), [](const Pose& pose) { return !is_rigid(pose); }),
       poses.end());
   if (poses.size() > kMostProposals) poses.resize(kMostProposals);
-  const auto is_last = [&last](const Pose& pose) { return pose.isApprox(last->motion, 1e-6); };
+  const auto is_last = [&last](const Pose& pose) { return pose.isApprox(last->b_from_a, 1e-6); };
   if (question.dependent.last_is_fresh && std::none_of(poses.begin(), poses.end(), is_last)) {
-    poses.push_back(last->motion);
+    poses.push_back(last->b_from_a);
   }
   return poses;
 }
@@ -281,7 +281,7 @@ void Director::send_whole(const Question& question, const RgbdFramePtr& frame, S
 std::unique_ptr<ExchangeRole> make_preview_reference(const std::string& self,
                                                      const std::string& peer,
                                                      const PreviewOptions& options,
-                                                     MotionPrior prior) {
+                                                     PosePrior prior) {
   auto director = std::make_unique<Director>(self, options, std::move(prior));
   director->add_dependent(peer);
   return director;

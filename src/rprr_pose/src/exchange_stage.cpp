@@ -25,7 +25,7 @@ bool is_for_reference(const PoseMessage& message) {
 }  // namespace
 
 ExchangeStage::ExchangeStage(const std::string& robot, const ExchangeOptions& options,
-                             const std::vector<std::string>& peers, MotionPrior prior)
+                             const std::vector<std::string>& peers, PosePrior prior)
     : use_previews_(options.use_previews) {
   for (const std::string& name : peers) {
     Peer& peer = peers_[name];

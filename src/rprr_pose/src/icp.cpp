@@ -76,7 +76,7 @@ class Icp final : public Registration {
 
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     const Eigen::Matrix3Xd points = points_of(a);
     const Cloud cloud = cloud_of(b);
     if (points.cols() < static_cast<Eigen::Index>(kFewestPoints) ||
@@ -88,10 +88,10 @@ class Icp final : public Registration {
     Eigen::Matrix3Xd nearest(3, points.cols());
     while (result.iterations < limits_.max_iterations && !result.converged) {
       ++result.iterations;
-      const Eigen::Matrix3Xd moved = result.motion * points;
+      const Eigen::Matrix3Xd moved = result.b_from_a * points;
       result.residual = match(moved, cloud, tree, nearest);
       const Pose step(Eigen::umeyama(moved, nearest, false));
-      result.motion = step * result.motion;
+      result.b_from_a = step * result.b_from_a;
       result.converged = limits_.reached_by(log_se3(step));
     }
     result.accepted = result.converged;

@@ -76,7 +76,7 @@ void judge(double z, const Correspondence& found, double distance, NormalEquatio
 }  // namespace
 
 NormalEquations half_at_dependent(const SampledSurface& a_points, const DepthFrame& b_depth,
-                                  const Camera& b_camera, const Pose& m_ab,
+                                  const Camera& b_camera, const Pose& b_from_a,
                                   const IcpWeights& weights) {
   NormalEquations out;
   std::vector<Match> matches;
@@ -84,7 +84,8 @@ NormalEquations half_at_dependent(const SampledSurface& a_points, const DepthFra
   for (const SamplePoint& sample : a_points.points) {
     ++out.points;
     const Eigen::Vector3d moved =
-        m_ab * a_points.camera.unproject(sample.column, sample.row, sample.counts * a_points.unit);
+        b_from_a *
+        a_points.camera.unproject(sample.column, sample.row, sample.counts * a_points.unit);
     const Correspondence found = project_and_walk(moved, b_depth, b_camera);
     if (found.kind != Correspondence::Kind::kFound) continue;
     judge(moved.z(), found, (moved - found.point).norm(), out);
@@ -96,22 +97,22 @@ NormalEquations half_at_dependent(const SampledSurface& a_points, const DepthFra
 }
 
 NormalEquations half_at_reference(const SampledSurface& b_points, const DepthFrame& a_depth,
-                                  const Camera& a_camera, const Pose& m_ab,
+                                  const Camera& a_camera, const Pose& b_from_a,
                                   const IcpWeights& weights) {
   NormalEquations out;
   std::vector<Match> matches;
   matches.reserve(b_points.points.size());
-  const Pose m_ba = m_ab.inverse();
+  const Pose a_from_b = b_from_a.inverse();
   for (const SamplePoint& sample : b_points.points) {
     ++out.points;
     const Eigen::Vector3d point_b =
         b_points.camera.unproject(sample.column, sample.row, sample.counts * b_points.unit);
-    const Eigen::Vector3d in_a = m_ba * point_b;
+    const Eigen::Vector3d in_a = a_from_b * point_b;
     const Correspondence found = project_and_walk(in_a, a_depth, a_camera);
     if (found.kind != Correspondence::Kind::kFound) continue;
     judge(in_a.z(), found, (in_a - found.point).norm(), out);
     if (!sample.normal.isZero()) {
-      matches.push_back({m_ab * found.point, point_b, sample.normal.cast<double>()});
+      matches.push_back({b_from_a * found.point, point_b, sample.normal.cast<double>()});
     }
   }
   accumulate(matches, weights, out);

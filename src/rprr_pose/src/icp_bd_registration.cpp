@@ -22,18 +22,18 @@ class IcpBd final : public Registration {
 
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     IcpWeights weights{0.0, false};
     while (result.iterations < limits_.max_iterations && !result.converged) {
       NormalEquations sums = half_at_dependent(surface_of(a, result.iterations, 0), b.depth,
-                                               b.camera, result.motion, weights);
+                                               b.camera, result.b_from_a, weights);
       sums += half_at_reference(surface_of(b, result.iterations, 1), a.depth, a.camera,
-                                result.motion, weights);
+                                result.b_from_a, weights);
       Twist step;
       if (!solve(sums, step)) return result;
       ++result.iterations;
       result.residual = std::sqrt(sums.sum_residual2 / sums.sum_weight);
-      result.motion = exp_se3(step) * result.motion;
+      result.b_from_a = exp_se3(step) * result.b_from_a;
       weights.c = sums.sum_abs_dz / sums.matched;
       result.converged = limits_.reached_by(step);
     }

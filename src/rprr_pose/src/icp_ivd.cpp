@@ -45,12 +45,12 @@ struct Row {
 };
 
 std::vector<Row> rows_at(const std::vector<SamplePoint>& samples, const RgbdFrame& a,
-                         const RgbdFrame& b, const Pose& m_ab) {
+                         const RgbdFrame& b, const Pose& b_from_a) {
   std::vector<Row> rows;
   rows.reserve(samples.size());
   for (const SamplePoint& sample : samples) {
     const Eigen::Vector3d moved =
-        m_ab * a.camera.unproject(sample.column, sample.row, sample.counts * a.depth.unit);
+        b_from_a * a.camera.unproject(sample.column, sample.row, sample.counts * a.depth.unit);
     const Correspondence found = project_and_walk(moved, b.depth, b.camera);
     if (found.kind != Correspondence::Kind::kFound) continue;
     const auto normal = normal_at(b.depth, b.camera, found.u, found.v);
@@ -88,15 +88,15 @@ class IcpIvd final : public Registration {
 
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     const auto samples = sample_points(a.depth, a.camera, kSampleCount, 1);
     while (result.iterations < limits_.max_iterations && !result.converged) {
-      const NormalEquations sums = sums_of(rows_at(samples, a, b, result.motion));
+      const NormalEquations sums = sums_of(rows_at(samples, a, b, result.b_from_a));
       Twist step;
       if (!solve(sums, step)) return result;
       ++result.iterations;
       result.residual = std::sqrt(sums.sum_residual2 / sums.sum_weight);
-      result.motion = exp_se3(step) * result.motion;
+      result.b_from_a = exp_se3(step) * result.b_from_a;
       result.converged = limits_.reached_by(step);
     }
     result.accepted = result.converged;

@@ -35,12 +35,12 @@ LocalAlignment iterate(const SampledSurface& b_points, const DepthFrame& a_depth
   IcpWeights weights;
   for (int i = 0; i <= iterations; ++i) {
     const NormalEquations half =
-        half_at_reference(b_points, a_depth, a_camera, result.motion, weights);
+        half_at_reference(b_points, a_depth, a_camera, result.b_from_a, weights);
     if (half.points == 0) return result;
     result.score = (half.consistent - 2.0 * half.violating) / half.points;
     Twist step;
     if (i == iterations || !solve(half, step)) return result;
-    result.motion = exp_se3(step) * result.motion;
+    result.b_from_a = exp_se3(step) * result.b_from_a;
     weights.c = half.sum_abs_dz / half.matched;
   }
   return result;
@@ -70,7 +70,7 @@ LocalAlignment align_locally(const SampledSurface& b_points, const DepthFrame& a
   std::stable_sort(candidates.begin(), candidates.end(), better);
   candidates.resize(std::min(candidates.size(), kRefined));
   for (LocalAlignment& candidate : candidates) {
-    candidate = iterate(b_points, a_depth, a_camera, candidate.motion, kFineIterations);
+    candidate = iterate(b_points, a_depth, a_camera, candidate.b_from_a, kFineIterations);
   }
   return *std::min_element(candidates.begin(), candidates.end(), better);
 }

@@ -70,10 +70,11 @@ float luma_at(const PreviewView& view, float u, float v) {
 
 }  // namespace
 
-Agreement agreement(const PreviewView& moving, const PreviewView& fixed, const Pose& motion) {
+Agreement agreement(const PreviewView& moving, const PreviewView& fixed,
+                    const Pose& fixed_from_moving) {
   Agreement out;
-  const Eigen::Matrix3f rotation = motion.linear().cast<float>();
-  const Eigen::Vector3f translation = motion.translation().cast<float>();
+  const Eigen::Matrix3f rotation = fixed_from_moving.linear().cast<float>();
+  const Eigen::Vector3f translation = fixed_from_moving.translation().cast<float>();
   const Pinhole fixed_camera(fixed.camera);
   Moments luma, blue, red, fine;
   // The fixed luma where the cells of the moving view land; NaN where they do not.

@@ -129,13 +129,14 @@ class Linearizer {
     metres_ = fixed.metres.empty() ? nullptr : fixed.metres.ptr<float>();
   }
 
-  Sums at(const Pose& motion, float gate, const Exposure& exposure, Tiles* tiles = nullptr) const {
+  Sums at(const Pose& fixed_from_moving, float gate, const Exposure& exposure,
+          Tiles* tiles = nullptr) const {
     Sums sums;
     sums.tiles = tiles;
     Projected projected;
     for (std::size_t begin = 0; begin < moving_.size(); begin += kChunk) {
       const std::size_t count = std::min(kChunk, moving_.size() - begin);
-      project(motion, begin, count, projected);
+      project(fixed_from_moving, begin, count, projected);
       for (std::size_t k = 0; k < count; ++k) {
         if (projected.z[k] < kNearest) continue;
         one(begin + k, {projected.x[k], projected.y[k], projected.z[k]}, gate, exposure, sums);
@@ -153,9 +154,10 @@ class Linearizer {
     std::array<float, kChunk> x, y, z;
   };
 
-  void project(const Pose& motion, std::size_t begin, std::size_t count, Projected& out) const {
-    const Eigen::Matrix3f r = motion.linear().cast<float>();
-    const Eigen::Vector3f t = motion.translation().cast<float>();
+  void project(const Pose& fixed_from_moving, std::size_t begin, std::size_t count,
+               Projected& out) const {
+    const Eigen::Matrix3f r = fixed_from_moving.linear().cast<float>();
+    const Eigen::Vector3f t = fixed_from_moving.translation().cast<float>();
     const float* x = moving_.x.data() + begin;
     const float* y = moving_.y.data() + begin;
     const float* z = moving_.z.data() + begin;
@@ -311,22 +313,22 @@ MovingPoints points_of(const PreviewView& view, int stride) {
 }
 
 bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOptions& options,
-           Pose& motion, AlignmentSums& sums) {
+           Pose& fixed_from_moving, AlignmentSums& sums) {
   const Linearizer linearizer(moving, fixed);
   const float shrink = std::pow(options.last_gate / options.gate,
                                 1.0f / static_cast<float>(std::max(1, options.iterations - 1)));
   float gate = options.gate;
   // A first look, for the exposure alone.
-  Exposure exposure = linearizer.at(motion, gate, {}).exposure(options);
+  Exposure exposure = linearizer.at(fixed_from_moving, gate, {}).exposure(options);
   exposure.sigma = options.most_luma_sigma;
   for (int i = 0; i < options.iterations; ++i) {
-    const Sums found = linearizer.at(motion, gate, exposure);
+    const Sums found = linearizer.at(fixed_from_moving, gate, exposure);
     store(found, moving.size(), exposure, sums);
     if (found.geometry + found.luma < kFewestResiduals) return false;
     const Twist step = step_of(found, sums.information);
     if (!step.allFinite() || step.head<3>().norm() > 2.0 || step.tail<3>().norm() > 1.0)
       return false;
-    motion = exp_se3(step) * motion;
+    fixed_from_moving = exp_se3(step) * fixed_from_moving;
     if (step.head<3>().norm() < 2e-4 && step.tail<3>().norm() < 1e-4 && gate <= options.last_gate) {
       break;
     }
@@ -335,7 +337,7 @@ bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOp
   }
   if (options.scatter) {
     Tiles tiles;
-    linearizer.at(motion, options.last_gate, exposure, &tiles);
+    linearizer.at(fixed_from_moving, options.last_gate, exposure, &tiles);
     store(tiles, sums);
   }
   return true;

@@ -59,7 +59,7 @@ class PreviewDependent final : public ExchangeRole {
       return send_whole("pose rejected by " + peer_ + ": " + describe(pose->verdict), out,
                         pose->verdict);
     }
-    if (!is_rigid(pose->motion) || !pose->covariance.allFinite() || !peer_camera_) {
+    if (!is_rigid(pose->b_from_a) || !pose->covariance.allFinite() || !peer_camera_) {
       out.problems.push_back({peer_, "accepted pose that is not a pose, or no camera"});
       return send_whole("pose could not be read", out);
     }

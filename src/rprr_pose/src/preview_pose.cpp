@@ -55,8 +55,8 @@ void PreviewPoseEstimator::prepare(const RgbdFrame& a) {
 }
 
 void PreviewPoseEstimator::judge(Candidate& candidate) const {
-  candidate.b_in_a = agreement(b_[0], a_[0], candidate.motion);
-  candidate.a_in_b = agreement(a_[0], b_[0], candidate.motion.inverse());
+  candidate.b_in_a = agreement(b_[0], a_[0], candidate.a_from_b);
+  candidate.a_in_b = agreement(a_[0], b_[0], candidate.a_from_b.inverse());
   const auto one_way = [](const Agreement& way) {
     const double agreement = way.of_shared(way.consistent - 2.0 * way.violating - 0.5 * way.hidden);
     return std::max(0.0, agreement) * std::pow(way.shared(), kSharedPower);
@@ -74,7 +74,7 @@ bool PreviewPoseEstimator::refine(Candidate& candidate) const {
   options.scatter = true;
   FixedView fixed = fine_;
   fixed.cells = &a_[0];
-  return align(refined_points_, fixed, options, candidate.motion, candidate.sums);
+  return align(refined_points_, fixed, options, candidate.a_from_b, candidate.sums);
 }
 
 // Aligns every candidate a little further, then keeps the best distinct ones.
@@ -85,7 +85,7 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   fixed.cells = &a_[level];
   const MovingPoints points = points_of(b_[level], stride);
   for (Candidate& candidate : candidates) {
-    const bool found = align(points, fixed, options, candidate.motion, candidate.sums);
+    const bool found = align(points, fixed, options, candidate.a_from_b, candidate.sums);
     candidate.score = found ? candidate.sums.score() : 0.0;
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
@@ -93,7 +93,7 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   for (const Candidate& candidate : candidates) {
     if (kept.size() >= keep || candidate.score <= 0.0) break;
     if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-          return differ(candidate.motion, other.motion, metres, degrees);
+          return differ(candidate.a_from_b, other.a_from_b, metres, degrees);
         })) {
       kept.push_back(candidate);
     }
@@ -112,7 +112,7 @@ void PreviewPoseEstimator::slide(const CoarseMatch& match,
     scaled.rightCols<3>() /= kMetresPerRadian;
     scaled.bottomRows<3>() /= kMetresPerRadian;
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-    const Pose from = candidates[i].motion;
+    const Pose from = candidates[i].a_from_b;
     for (int k = 0; k < 2; ++k) {
       Twist direction = eigen.eigenvectors().col(k);
       direction.tail<3>() /= kMetresPerRadian;
@@ -120,7 +120,7 @@ void PreviewPoseEstimator::slide(const CoarseMatch& match,
       distances.insert(distances.end(), {-kSlideStep, kSlideStep});
       for (const double metres : distances) {
         candidates.emplace_back();
-        candidates.back().motion = exp_se3(metres * direction) * from;
+        candidates.back().a_from_b = exp_se3(metres * direction) * from;
       }
     }
   }
@@ -136,7 +136,7 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search(
   std::vector<Candidate> candidates;
   for (const Pose& start : find_starts(match, options_.range)) {
     candidates.emplace_back();
-    candidates.back().motion = start;
+    candidates.back().a_from_b = start;
   }
   if (!candidates.empty()) best_start = candidates.front();
   narrow(candidates, middle, 3, {6, 0.6f, 0.25f}, 40, 0.04, 1.5);
@@ -156,7 +156,7 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search(
 
 PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) const {
   PreviewPose out;
-  out.motion = best.motion.inverse();
+  out.b_from_a = best.a_from_b.inverse();
   out.score = best.score;
   const double margin = best.score > 0.0 ? (best.score - second) / best.score : 0.0;
   out.evidence = evidence_of(best.b_in_a, best.a_in_b, margin);
@@ -165,7 +165,7 @@ PreviewPose PreviewPoseEstimator::finish(const Candidate& best, double second) c
   out.a_in_b = best.a_in_b;
   out.sums = best.sums;
   // Left perturbation of b-to-a carried over to a-to-b.
-  const Matrix6 a = adjoint(out.motion);
+  const Matrix6 a = adjoint(out.b_from_a);
   out.covariance = a * covariance_of(best.sums) * a.transpose();
 
   const auto checks = checks_of(out, options_.limits);
@@ -196,7 +196,7 @@ bool PreviewPoseEstimator::stands_alone(const Candidate& warm) const {
   double own = 0.0;
   double rival = 0.0;
   for (const Candidate& candidate : candidates) {
-    const bool other = differ(candidate.motion, warm.motion, kDistinctMetres, kDistinctDegrees);
+    const bool other = differ(candidate.a_from_b, warm.a_from_b, kDistinctMetres, kDistinctDegrees);
     double& score = other ? rival : own;
     score = std::max(score, candidate.score);
   }
@@ -208,9 +208,9 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
   prepare(a);
   b_ = pyramid(make_view(b, b_camera));
   refined_points_ = points_of(b_[0], 2);
-  for (const Pose& m_ab : warm) {
+  for (const Pose& b_from_a : warm) {
     Candidate candidate;
-    candidate.motion = m_ab.inverse();
+    candidate.a_from_b = b_from_a.inverse();
     if (!refine(candidate)) continue;
     judge(candidate);
     PreviewPose pose = finish(candidate, 0.0);
@@ -221,7 +221,7 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
     return pose;
   }
   Candidate best_start;
-  best_start.motion = Pose::Identity();
+  best_start.a_from_b = Pose::Identity();
   const std::vector<Candidate> found = search(best_start);
   if (found.empty()) {
     PreviewPose none;
@@ -231,7 +231,7 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
   }
   double second = 0.0;
   for (const Candidate& other : found) {
-    if (differ(other.motion, found[0].motion, kDistinctMetres, kDistinctDegrees))
+    if (differ(other.a_from_b, found[0].a_from_b, kDistinctMetres, kDistinctDegrees))
       second = std::max(second, other.score);
   }
   PreviewPose pose = finish(found[0], second);

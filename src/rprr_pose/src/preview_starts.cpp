@@ -31,7 +31,7 @@ constexpr double kClimbDegrees = 8.0;
 constexpr double kClimbMetres = 0.15;  // per metre of typical depth
 
 struct Judged {
-  Pose motion = Pose::Identity();
+  Pose a_from_b = Pose::Identity();
   float score = 0.0f;
 };
 
@@ -52,8 +52,8 @@ Eigen::Matrix3d turn_of(double yaw, double pitch, double roll) {
 }
 
 void judge(const CoarseMatch& match, float tolerance, Judged& one) {
-  one.score = score_of(match.judge(one.motion.linear().cast<float>(),
-                                   one.motion.translation().cast<float>(), tolerance));
+  one.score = score_of(match.judge(one.a_from_b.linear().cast<float>(),
+                                   one.a_from_b.translation().cast<float>(), tolerance));
 }
 
 // The best that are far enough from all better ones.
@@ -65,9 +65,9 @@ std::vector<Judged> distinct(std::vector<Judged> all, std::size_t most, double m
   for (const Judged& one : all) {
     if (kept.size() >= most || one.score <= 0.0f) break;
     const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Judged& other) {
-      const Eigen::Matrix3d& l = one.motion.linear();
-      const Eigen::Matrix3d& r = other.motion.linear();
-      return (one.motion.translation() - other.motion.translation()).norm() > metres ||
+      const Eigen::Matrix3d& l = one.a_from_b.linear();
+      const Eigen::Matrix3d& r = other.a_from_b.linear();
+      return (one.a_from_b.translation() - other.a_from_b.translation()).norm() > metres ||
              0.5 * (l.cwiseProduct(r).sum() - 1.0) < least_cosine;
     });
     if (is_new) kept.push_back(one);
@@ -89,9 +89,9 @@ std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& r
     for (int j = -pitches; j <= pitches; ++j) {
       for (int k = -rolls; k <= rolls; ++k) {
         Judged one;
-        one.motion.linear() = turn_of(i * range.step, j * range.step, k * roll_step);
+        one.a_from_b.linear() = turn_of(i * range.step, j * range.step, k * roll_step);
         for (const float forward : kForward) {
-          one.motion.translation().z() = static_cast<double>(forward * match.typical_depth());
+          one.a_from_b.translation().z() = static_cast<double>(forward * match.typical_depth());
           judge(match, kRotationTolerance, one);
           all.push_back(one);
         }
@@ -104,17 +104,17 @@ std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& r
 
 // The motion after a step along one of its degrees of freedom: translation, or a turn about the
 // middle of what is seen, so that the view stays on it.
-Pose stepped(const Pose& motion, int axis, double metres, double radians, double middle_depth) {
-  Pose out = motion;
+Pose stepped(const Pose& a_from_b, int axis, double metres, double radians, double middle_depth) {
+  Pose out = a_from_b;
   if (axis < 3) {
     out.translation()[axis] += metres;
     return out;
   }
-  const Eigen::Vector3d middle = motion * Eigen::Vector3d(0, 0, middle_depth);
+  const Eigen::Vector3d middle = a_from_b * Eigen::Vector3d(0, 0, middle_depth);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(radians, Eigen::Vector3d::Unit(axis - 3)).toRotationMatrix();
-  out.linear() = turn * motion.linear();
-  out.translation() = turn * (motion.translation() - middle) + middle;
+  out.linear() = turn * a_from_b.linear();
+  out.translation() = turn * (a_from_b.translation() - middle) + middle;
   return out;
 }
 
@@ -126,8 +126,8 @@ void climb(const CoarseMatch& match, Judged& best) {
     for (int axis = 0; axis < 6; ++axis) {
       for (const double signed_size : {size, -size}) {
         Judged other;
-        other.motion = stepped(best.motion, axis, kClimbMetres * depth * signed_size,
-                               kClimbDegrees * kDegree * signed_size, depth);
+        other.a_from_b = stepped(best.a_from_b, axis, kClimbMetres * depth * signed_size,
+                                 kClimbDegrees * kDegree * signed_size, depth);
         judge(match, kMotionTolerance, other);
         if (other.score <= best.score) continue;
         best = other;
@@ -151,13 +151,13 @@ std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range)
   std::vector<Judged> turned;
   const std::vector<Eigen::Matrix3d> turns = all_turns();
   for (const Judged& rotation : best_rotations(match, range)) {
-    const Eigen::Vector3d middle = match.middle(rotation.motion);
+    const Eigen::Vector3d middle = match.middle(rotation.a_from_b);
     for (const Eigen::Matrix3d& turn : turns) {
       for (const float nearer : kNearer) {
         Judged one;
-        one.motion.linear() = turn * rotation.motion.linear();
-        one.motion.translation() =
-            turn * (rotation.motion.translation() - middle) + middle * (1.0 + nearer);
+        one.a_from_b.linear() = turn * rotation.a_from_b.linear();
+        one.a_from_b.translation() =
+            turn * (rotation.a_from_b.translation() - middle) + middle * (1.0 + nearer);
         judge(match, kMotionTolerance, one);
         turned.push_back(one);
       }
@@ -168,7 +168,7 @@ std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range)
   for (Judged& one : best) climb(match, one);
   std::vector<Pose> starts;
   for (const Judged& one : distinct(std::move(best), range.starts, 0.5 * apart, 3.0)) {
-    starts.push_back(one.motion);
+    starts.push_back(one.a_from_b);
   }
   return starts;
 }
@@ -178,7 +178,7 @@ std::vector<double> matches_along(const CoarseMatch& match, const Pose& from,
   std::array<Judged, 2 * kProbes + 1> line;
   for (int k = -kProbes; k <= kProbes; ++k) {
     Judged& one = line[static_cast<std::size_t>(k + kProbes)];
-    one.motion = exp_se3(k * kProbeStep * direction) * from;
+    one.a_from_b = exp_se3(k * kProbeStep * direction) * from;
     judge(match, kMotionTolerance, one);
   }
   std::vector<std::pair<float, double>> peaks;

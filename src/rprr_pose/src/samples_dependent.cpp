@@ -150,7 +150,7 @@ class SamplesDependent final : public ExchangeRole {
     PoseHalf half;
     half.iteration = request->iteration;
     half.equations = half_at_dependent(*exchange_->a_points, frame.depth, frame.camera,
-                                       request->motion, {request->c, request->by_noise});
+                                       request->b_from_a, {request->c, request->by_noise});
     send(UpdateMessage{frame.stamp, peer_, exchange_->number, encode_half(half)}, out);
   }
 
@@ -160,7 +160,7 @@ class SamplesDependent final : public ExchangeRole {
     if (!pose.verdict.accepted()) {
       return send_whole("pose rejected: " + describe(pose.verdict), now, out, pose.verdict);
     }
-    if (!is_rigid(pose.motion) || !pose.covariance.allFinite() || !exchange_->a_camera) {
+    if (!is_rigid(pose.b_from_a) || !pose.covariance.allFinite() || !exchange_->a_camera) {
       out.problems.push_back({peer_, "accepted pose that is not a pose"});
       return send_whole("pose could not be read", now, out);
     }

@@ -22,7 +22,7 @@ struct Exchange {
   RgbdFramePtr frame;
   Stamp deadline = 0;
   std::uint8_t iteration = 0;
-  Pose motion = Pose::Identity();  // M_ab, as it crossed the wire
+  Pose b_from_a = Pose::Identity();  // M_ab, as it crossed the wire
   double c = 0.0;
   std::optional<SampledSurface> b_points;  // of this iteration (resample) or of the exchange
   std::optional<NormalEquations> b_half;   // of this iteration
@@ -121,10 +121,10 @@ class SamplesReference final : public ExchangeRole {
   }
 
   void send_request(RoleOutput& out) {
-    exchange_->motion = rounded_for_wire(exchange_->motion);
+    exchange_->b_from_a = rounded_for_wire(exchange_->b_from_a);
     const std::uint8_t points_iteration =
         options_.resample ? exchange_->iteration : std::uint8_t{0};
-    const PoseRequest request{exchange_->iteration, exchange_->motion, exchange_->c,
+    const PoseRequest request{exchange_->iteration, exchange_->b_from_a, exchange_->c,
                               options_.by_noise, points_iteration};
     send(UpdateMessage{exchange_->frame->stamp, peer_, exchange_->number, encode_request(request)},
          out);
@@ -156,9 +156,9 @@ class SamplesReference final : public ExchangeRole {
     exchange_->b_stamp = message.stamp;
     exchange_->deadline = now + options_.step_timeout;
     if (options_.local_start && exchange_->iteration == 0) {
-      exchange_->motion =
+      exchange_->b_from_a =
           align_locally(*exchange_->b_points, exchange_->frame->depth, exchange_->frame->camera)
-              .motion;
+              .b_from_a;
       return send_request(out);
     }
     iterate(now, out);
@@ -181,7 +181,7 @@ class SamplesReference final : public ExchangeRole {
     const IcpWeights weights{exchange.c, options_.by_noise};
     exchange.last_b = *exchange.b_half;
     exchange.last_a = half_at_reference(*exchange.b_points, exchange.frame->depth,
-                                        exchange.frame->camera, exchange.motion, weights);
+                                        exchange.frame->camera, exchange.b_from_a, weights);
     NormalEquations both = exchange.last_b;
     both += exchange.last_a;
     ++exchange.iteration;
@@ -190,7 +190,7 @@ class SamplesReference final : public ExchangeRole {
       const std::optional<PoseVerdict> why = why_unsolved(both, options_.limits);
       return finish(why ? *why : not_converged(step, options_), out);
     }
-    exchange.motion = exp_se3(step) * exchange.motion;
+    exchange.b_from_a = exp_se3(step) * exchange.b_from_a;
     exchange.c = both.sum_abs_dz / both.matched;
     if (step.head<3>().norm() < options_.converged_translation &&
         step.tail<3>().norm() < options_.converged_rotation) {
@@ -229,7 +229,7 @@ class SamplesReference final : public ExchangeRole {
     pose.dependent = peer_;
     pose.exchange = exchange.number;
     pose.verdict = verdict;
-    pose.motion = exchange.motion;
+    pose.b_from_a = exchange.b_from_a;
     pose.covariance = covariance_of(both);
     pose.iterations = exchange.iteration;
     pose.inliers = static_cast<std::uint16_t>(both.consistent);

@@ -35,7 +35,7 @@ std::uint16_t small(std::uint32_t count) {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(count, 65535));
 }
 
-Pose get_motion(ByteReader& reader, double& quaternion_length) {
+Pose get_pose(ByteReader& reader, double& quaternion_length) {
   Eigen::Vector3d translation;
   Eigen::Vector4d rotation;
   for (int i = 0; i < 3; ++i) translation[i] = static_cast<double>(reader.get<float>());
@@ -44,7 +44,7 @@ Pose get_motion(ByteReader& reader, double& quaternion_length) {
   return make_pose(translation, rotation);
 }
 
-void put_motion(ByteWriter& writer, const Pose& pose) {
+void put_pose(ByteWriter& writer, const Pose& pose) {
   const Eigen::Quaterniond q(pose.linear());
   for (int i = 0; i < 3; ++i) writer.put(static_cast<float>(pose.translation()[i]));
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) writer.put(static_cast<float>(value));
@@ -65,7 +65,7 @@ bool possible(const NormalEquations& e) {
 Bytes encode_request(const PoseRequest& request) {
   ByteWriter writer;
   put_start(writer, kRequest, request.iteration);
-  put_motion(writer, request.motion);
+  put_pose(writer, request.b_from_a);
   writer.put(static_cast<float>(request.c));
   writer.put(static_cast<std::uint8_t>(request.by_noise ? 1 : 0));
   writer.put(request.points_iteration);
@@ -95,10 +95,10 @@ Bytes encode_half(const PoseHalf& half) {
 
 Pose rounded_for_wire(const Pose& pose) {
   ByteWriter writer;
-  put_motion(writer, pose);
+  put_pose(writer, pose);
   ByteReader reader(writer.bytes());
   double length = 0.0;
-  return get_motion(reader, length);
+  return get_pose(reader, length);
 }
 
 bool is_of_dependent(ByteView bytes) {
@@ -111,13 +111,13 @@ Result<PoseRequest> decode_request(ByteView bytes) {
   const std::string wrong = check_start(reader, kRequest, request.iteration);
   if (!wrong.empty()) return Error{wrong};
   double length = 0.0;
-  request.motion = get_motion(reader, length);
+  request.b_from_a = get_pose(reader, length);
   request.c = static_cast<double>(reader.get<float>());
   request.by_noise = (reader.get<std::uint8_t>() & 1) != 0;
   request.points_iteration = reader.get<std::uint8_t>();
   if (!reader.ok() || reader.left() != 0) return Error{"pose request of a wrong length"};
-  if (!(std::abs(length - 1.0) < 1e-3) || !is_rigid(request.motion) ||
-      !(request.motion.translation().norm() < kFarthest) || !(request.c >= 0.0) ||
+  if (!(std::abs(length - 1.0) < 1e-3) || !is_rigid(request.b_from_a) ||
+      !(request.b_from_a.translation().norm() < kFarthest) || !(request.c >= 0.0) ||
       !(request.c < kFarthest)) {
     return Error{"pose request with impossible numbers"};
   }

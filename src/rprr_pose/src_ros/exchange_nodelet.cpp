@@ -42,10 +42,10 @@ class ExchangeNodelet : public nodelet::Nodelet {
         [this](const FrameDecision& decision, Health& health) { on_decision(decision, health); });
   }
 
-  MotionPrior prior() {
+  PosePrior prior() {
     if (priors_.empty()) return {};
     return [this](const std::string& peer, const FrameNames& frames,
-                  const std::optional<KnownMotion>& last) {
+                  const std::optional<KnownPose>& last) {
       const auto found = priors_.find(peer);
       return found == priors_.end() ? std::vector<Pose>() : found->second->propose(frames, last);
     };

@@ -48,7 +48,7 @@ rprr_msgs::RelativePose to_ros(const RelativePoseMessage& message) {
   out.quantity = static_cast<std::uint8_t>(message.verdict.quantity);
   out.measured = message.verdict.measured;
   out.needed = message.verdict.needed;
-  pose_to_fields(message.motion, out.translation, out.rotation);
+  pose_to_fields(message.b_from_a, out.translation, out.rotation);
   std::size_t at = 0;
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) out.covariance[at++] = static_cast<float>(message.covariance(i, j));
@@ -87,7 +87,7 @@ RelativePoseMessage from_ros(const rprr_msgs::RelativePose& message) {
   out.exchange = message.exchange;
   out.verdict = {pose_status_from(message.status), pose_quantity_from(message.quantity),
                  message.measured, message.needed};
-  out.motion = pose_from_fields(message.translation, message.rotation);
+  out.b_from_a = pose_from_fields(message.translation, message.rotation);
   std::size_t at = 0;
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) {

@@ -75,7 +75,7 @@ void MotionReport::publish(const CameraMotion& motion, const RgbdFrame& frame,
   message.exchange = exchange;
   message.peer = peer;
   message.outcome = static_cast<std::uint8_t>(motion.outcome);
-  pose_to_fields(motion.motion, message.translation, message.rotation);
+  pose_to_fields(motion.later_from_earlier, message.translation, message.rotation);
   message.metres = static_cast<float>(motion.metres);
   message.degrees = static_cast<float>(degrees(motion));
   message.shared = static_cast<float>(motion.shared);

@@ -26,9 +26,9 @@ class MotionReport {
   void report(const RgbdFramePtr& frame, const std::string& peer, std::uint32_t exchange);
 
  private:
-  void publish(const CameraMotion& motion, const RgbdFrame& frame, const std::string& peer,
+  void publish(const CameraMotion& b_from_a, const RgbdFrame& frame, const std::string& peer,
                std::uint32_t exchange);
-  void judge(const CameraMotion& motion, double seconds, const std::string& peer);
+  void judge(const CameraMotion& b_from_a, double seconds, const std::string& peer);
 
   const double stale_overlap_;
   Health& health_;

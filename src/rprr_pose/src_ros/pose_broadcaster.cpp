@@ -32,7 +32,7 @@ PoseBroadcaster::PoseBroadcaster(const ExchangeNodeOptions& options, const tf2::
 void PoseBroadcaster::send(const RelativePoseMessage& pose, Health& health) {
   if (!publish_) return;
   geometry_msgs::TransformStamped message;
-  Pose b_in_a = pose.motion.inverse();
+  Pose b_in_a = pose.b_from_a.inverse();
   message.child_frame_id = rebuilt_frame(pose.dependent);
   if (root_ && !to_root(pose, b_in_a, message.child_frame_id, health)) return;
   message.header.stamp = to_time(pose.dependent_stamp);

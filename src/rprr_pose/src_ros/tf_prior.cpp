@@ -34,8 +34,7 @@ TfPrior::TfPrior(const tf2::BufferCore& buffer, TfPriorOptions options)
     : buffer_(buffer), options_(std::move(options)) {
 }
 
-std::vector<Pose> TfPrior::propose(const FrameNames& frames,
-                                   const std::optional<KnownMotion>& last) {
+std::vector<Pose> TfPrior::propose(const FrameNames& frames, const std::optional<KnownPose>& last) {
   FrameNames cleaned = frames;
   cleaned.a_frame_id = clean_frame(frames.a_frame_id);
   cleaned.b_frame_id = clean_frame(frames.b_frame_id);
@@ -106,13 +105,13 @@ std::optional<Pose> TfPrior::through_tree(const FrameNames& frames, const Chain&
   return std::nullopt;
 }
 
-std::optional<Pose> TfPrior::carried(const FrameNames& frames, const KnownMotion& last,
+std::optional<Pose> TfPrior::carried(const FrameNames& frames, const KnownPose& last,
                                      const Chain& a, const Chain& b) {
   const auto a_moved = moved(options_.robot, a, last.frames.a_stamp, frames.a_stamp, a_then_);
   const auto b_moved = moved(options_.peer, b, last.frames.b_stamp, frames.b_stamp, b_then_);
   if (!a_moved && !b_moved) return std::nullopt;
   const Pose stays = Pose::Identity();
-  return b_moved.value_or(stays) * last.motion * a_moved.value_or(stays).inverse();
+  return b_moved.value_or(stays) * last.b_from_a * a_moved.value_or(stays).inverse();
 }
 
 // Maps points of the camera's frame then into its frame now.

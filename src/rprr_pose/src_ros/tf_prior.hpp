@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/pose_prior.hpp"
 
 namespace rprr {
 
@@ -19,7 +19,7 @@ struct TfPriorOptions {
   bool publishes_root = false;  // our own poses hang the root of b's tree under a's optical frame
 };
 
-/// What tf knows of two robots' relative pose, as a MotionPrior: the last accepted pose carried on
+/// What tf knows of two robots' relative pose, as a PosePrior: the last accepted pose carried on
 /// by each robot's odometry, and the pose through a tree in which both cameras hang. Never waits;
 /// what tf does not know is not proposed. Poses that we published ourselves are no evidence: the
 /// way is cut there. One thread at a time; the buffer has its own lock and must outlive this.
@@ -28,7 +28,7 @@ class TfPrior {
   TfPrior(const tf2::BufferCore& buffer, TfPriorOptions options);
 
   /// M_ab, the likeliest first: carried, then through the tree.
-  std::vector<Pose> propose(const FrameNames& frames, const std::optional<KnownMotion>& last);
+  std::vector<Pose> propose(const FrameNames& frames, const std::optional<KnownPose>& last);
 
   /// What was configured explicitly and is missing in tf, once; empty if nothing is.
   std::string take_complaint();
@@ -46,7 +46,7 @@ class TfPrior {
   std::optional<Pose> lookup(const std::string& target, const std::string& source, Stamp at) const;
   Chain chain_of(const std::string& frame, const std::string& a_frame) const;
   std::optional<Pose> through_tree(const FrameNames& frames, const Chain& a, const Chain& b);
-  std::optional<Pose> carried(const FrameNames& frames, const KnownMotion& last, const Chain& a,
+  std::optional<Pose> carried(const FrameNames& frames, const KnownPose& last, const Chain& a,
                               const Chain& b);
   std::optional<Pose> moved(const std::string& robot, const Chain& chain, Stamp then, Stamp now,
                             Remembered& memory);

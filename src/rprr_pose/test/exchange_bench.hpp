@@ -52,9 +52,9 @@ class Inbox {
 /// One robot's camera in the synthetic corner.
 class CameraOfRobot {
  public:
-  CameraOfRobot(ros::NodeHandle& nh, const std::string& name, const Pose& m_ab)
-      : depth(corner_view(m_ab, true)),
-        bgr(textured_frame(m_ab, 0, name)->bgr),
+  CameraOfRobot(ros::NodeHandle& nh, const std::string& name, const Pose& b_from_a)
+      : depth(corner_view(b_from_a, true)),
+        bgr(textured_frame(b_from_a, 0, name)->bgr),
         name_(name),
         rgb_(nh.advertise<sensor_msgs::Image>("/" + name + "/camera/rgb/image_rect_color", 5)),
         info_(nh.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera/rgb/camera_info", 5)),
@@ -161,9 +161,9 @@ class ExchangeNodes : public testing::Test {
            pose->status == RelativePose::ACCEPTED && is_right(*pose);
   }
   bool is_right(const RelativePose& pose) const {
-    const Pose motion = pose_from_fields(pose.translation, pose.rotation);
-    return translation_error(motion, truth) < metres_allowed &&
-           rotation_error(motion, truth) < degrees_allowed;
+    const Pose b_from_a = pose_from_fields(pose.translation, pose.rotation);
+    return translation_error(b_from_a, truth) < metres_allowed &&
+           rotation_error(b_from_a, truth) < degrees_allowed;
   }
   /// Makes a peer a reference of robot a or b, or not any more, while the nodes run.
   bool set_reference(const std::string& robot, const std::string& peer, bool refer) {

@@ -20,8 +20,8 @@ inline void expect_finds(Registration& method, const Pose& truth, double metres,
   EXPECT_TRUE(result.converged) << method.name() << " after " << result.iterations;
   EXPECT_EQ(result.accepted, result.converged);
   EXPECT_GT(result.iterations, 0);
-  EXPECT_LT(translation_error(result.motion, truth), metres) << method.name();
-  EXPECT_LT(rotation_error(result.motion, truth), degrees) << method.name();
+  EXPECT_LT(translation_error(result.b_from_a, truth), metres) << method.name();
+  EXPECT_LT(rotation_error(result.b_from_a, truth), degrees) << method.name();
 }
 
 /// From the truth nothing moves far and it takes less than from the identity.
@@ -31,7 +31,7 @@ inline void expect_start_counts(Registration& method, const Pose& truth, double 
   const RegistrationResult near = method.align(*a, *b, truth);
   const RegistrationResult far = method.align(*a, *b, Pose::Identity());
   EXPECT_TRUE(near.converged);
-  EXPECT_LT(translation_error(near.motion, truth), metres) << method.name();
+  EXPECT_LT(translation_error(near.b_from_a, truth), metres) << method.name();
   EXPECT_LE(near.iterations, far.iterations) << method.name();
 }
 
@@ -40,7 +40,7 @@ inline void expect_same_twice(Registration& method) {
   const auto b = corner_frame(test_motion(0.05, 3.0), 2, "b");
   const RegistrationResult first = method.align(*a, *b, Pose::Identity());
   const RegistrationResult second = method.align(*a, *b, Pose::Identity());
-  EXPECT_TRUE(first.motion.matrix() == second.motion.matrix()) << method.name();
+  EXPECT_TRUE(first.b_from_a.matrix() == second.b_from_a.matrix()) << method.name();
   EXPECT_EQ(first.iterations, second.iterations);
 }
 
@@ -54,7 +54,7 @@ inline void expect_survives_empty_frames(Registration& method) {
     const RegistrationResult result = method.align(left, right, start);
     EXPECT_FALSE(result.converged) << method.name();
     EXPECT_FALSE(result.accepted) << method.name();
-    EXPECT_TRUE(result.motion.isApprox(start)) << method.name();
+    EXPECT_TRUE(result.b_from_a.isApprox(start)) << method.name();
   }
 }
 

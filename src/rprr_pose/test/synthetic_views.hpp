@@ -42,14 +42,14 @@ inline double corner_depth(const Eigen::Vector3d& origin, const Eigen::Vector3d&
 
 /// What a camera sees that stands where M_ab says (identity: camera a), in millimetres. With noise
 /// the depth is quantised in inverse depth as a Kinect does.
-inline DepthFrame corner_view(const Pose& m_ab, bool quantised = false,
+inline DepthFrame corner_view(const Pose& b_from_a, bool quantised = false,
                               const Camera& camera = kTestCamera) {
   DepthFrame frame{cv::Mat(camera.height, camera.width, CV_16UC1), 0.001};
-  const Pose b_in_a = m_ab.inverse();
+  const Pose a_from_b = b_from_a.inverse();
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      const Eigen::Vector3d ray = b_in_a.linear() * camera.unproject(u, v, 1.0);
-      double z = corner_depth(b_in_a.translation(), ray);
+      const Eigen::Vector3d ray = a_from_b.linear() * camera.unproject(u, v, 1.0);
+      double z = corner_depth(a_from_b.translation(), ray);
       if (quantised) z = 1.0 / (std::round(1.0 / z / 2.85e-3) * 2.85e-3);
       frame.counts.at<std::uint16_t>(v, u) =
           z < 8.0 ? static_cast<std::uint16_t>(std::lround(z * 1000.0)) : std::uint16_t{0};
@@ -58,13 +58,13 @@ inline DepthFrame corner_view(const Pose& m_ab, bool quantised = false,
   return frame;
 }
 
-inline RgbdFramePtr corner_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
+inline RgbdFramePtr corner_frame(const Pose& b_from_a, Stamp stamp, const std::string& robot,
                                  bool quantised = true) {
   auto frame = std::make_shared<RgbdFrame>();
   frame->stamp = stamp;
   frame->frame_id = robot + "_rgb_optical_frame";
   frame->camera = kTestCamera;
-  frame->depth = corner_view(m_ab, quantised);
+  frame->depth = corner_view(b_from_a, quantised);
   return frame;
 }
 

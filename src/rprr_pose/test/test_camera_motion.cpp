@@ -58,8 +58,8 @@ TEST_P(KnownMotions, AreRecovered) {
   const RgbdFramePtr later = noisy_frame(truth, 2);
   const CameraMotion found = camera_motion(*earlier, *later);
   ASSERT_EQ(found.outcome, Outcome::kMoved);
-  EXPECT_LT(translation_error(found.motion, truth), 0.015);
-  EXPECT_LT(rotation_error(found.motion, truth), 0.4);
+  EXPECT_LT(translation_error(found.later_from_earlier, truth), 0.015);
+  EXPECT_LT(rotation_error(found.later_from_earlier, truth), 0.4);
   EXPECT_NEAR(found.metres, truth.inverse().translation().norm(), 0.015);
   EXPECT_NEAR(found.radians, rotation_angle(truth.linear()), 0.4 * M_PI / 180.0);
   EXPECT_GT(found.shared, 0.3);
@@ -67,7 +67,7 @@ TEST_P(KnownMotions, AreRecovered) {
 
   const CameraMotion back = camera_motion(*later, *earlier);
   ASSERT_EQ(back.outcome, Outcome::kMoved);
-  EXPECT_LT(translation_error(back.motion.inverse(), found.motion), 0.02);
+  EXPECT_LT(translation_error(back.later_from_earlier.inverse(), found.later_from_earlier), 0.02);
   EXPECT_NEAR(back.shared, found.shared, 0.05);
 }
 
@@ -164,7 +164,7 @@ TEST(CameraMotion, DepthAloneServesWithoutColour) {
   earlier.bgr = later.bgr = cv::Mat();
   const CameraMotion found = camera_motion(earlier, later);
   ASSERT_EQ(found.outcome, Outcome::kMoved);
-  EXPECT_LT(translation_error(found.motion, test_motion(0.06, 3.0)), 0.02);
+  EXPECT_LT(translation_error(found.later_from_earlier, test_motion(0.06, 3.0)), 0.02);
 }
 
 }  // namespace

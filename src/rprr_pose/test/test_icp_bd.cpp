@@ -15,8 +15,10 @@ struct Views {
   DepthFrame a, b;
   SampledSurface a_points, b_points;
 
-  explicit Views(const Pose& m_ab, bool quantised = false)
-      : truth(m_ab), a(corner_view(Pose::Identity(), quantised)), b(corner_view(m_ab, quantised)) {
+  explicit Views(const Pose& b_from_a, bool quantised = false)
+      : truth(b_from_a),
+        a(corner_view(Pose::Identity(), quantised)),
+        b(corner_view(b_from_a, quantised)) {
     a_points = {kTestCamera, a.unit, sample_points(a, kTestCamera, kSampleCount, 3)};
     b_points = {kTestCamera, b.unit, sample_points(b, kTestCamera, kSampleCount, 4)};
   }

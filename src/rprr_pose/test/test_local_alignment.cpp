@@ -16,8 +16,8 @@ TEST(LocalAlignment, BridgesRotationsThatTheIdentityDoesNot) {
     const SampledSurface points{kTestCamera, b.unit,
                                 sample_points(b, kTestCamera, kSampleCount, 5)};
     const LocalAlignment found = align_locally(points, a, kTestCamera);
-    EXPECT_LT(translation_error(found.motion, truth), 0.05) << degrees << " deg";
-    EXPECT_LT(rotation_error(found.motion, truth), 1.0) << degrees << " deg";
+    EXPECT_LT(translation_error(found.b_from_a, truth), 0.05) << degrees << " deg";
+    EXPECT_LT(rotation_error(found.b_from_a, truth), 1.0) << degrees << " deg";
     EXPECT_GT(found.score, 0.5) << degrees << " deg";
   }
 }
@@ -26,7 +26,7 @@ TEST(LocalAlignment, WithoutPointsItStaysAtTheStart) {
   const DepthFrame a = corner_view(Pose::Identity());
   const LocalAlignment found = align_locally({kTestCamera, 0.001, {}}, a, kTestCamera);
   EXPECT_EQ(found.score, 0.0);
-  EXPECT_TRUE(is_rigid(found.motion));
+  EXPECT_TRUE(is_rigid(found.b_from_a));
 }
 
 }  // namespace

@@ -35,14 +35,14 @@ TEST(MessageConversions, PosesComeBack) {
   pose.stamp = 1305031790645155000;
   pose.dependent_stamp = pose.stamp + 5;
   pose.verdict = {PoseStatus::kAmbiguous, PoseQuantity::kMargin, 0.02f, 0.06f};
-  pose.motion = test_motion(0.4, 30.0);
+  pose.b_from_a = test_motion(0.4, 30.0);
   pose.covariance = Matrix6::Identity();
   pose.covariance(0, 5) = pose.covariance(5, 0) = 0.25;
   const RelativePoseMessage back = from_ros(to_ros(pose));
   EXPECT_EQ(back.stamp, pose.stamp);
   EXPECT_EQ(back.dependent_stamp, pose.dependent_stamp);
   EXPECT_EQ(describe(back.verdict), describe(pose.verdict));
-  EXPECT_LT((back.motion.matrix() - pose.motion.matrix()).norm(), 1e-12);
+  EXPECT_LT((back.b_from_a.matrix() - pose.b_from_a.matrix()).norm(), 1e-12);
   EXPECT_LT((back.covariance - pose.covariance).norm(), 1e-6);
 }
 
@@ -118,7 +118,7 @@ TEST(PoseSeal, HoldsOnTheWayAndBreaksWithAnyBitOfThePose) {
   RelativePoseMessage pose;
   pose.frame_id = "a_rgb_optical_frame";
   pose.dependent = "b";
-  pose.motion = test_motion(0.4, 30.0);
+  pose.b_from_a = test_motion(0.4, 30.0);
   pose.reference_camera = Bytes(20, 7);
   rprr_msgs::RelativePose message = to_ros(pose);
   message.header.seq = 1234;

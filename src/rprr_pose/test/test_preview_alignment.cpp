@@ -9,8 +9,8 @@
 namespace rprr {
 namespace {
 
-PreviewView view_of(const Pose& m_ab, double exposure = 1.0) {
-  const RgbdFramePtr frame = textured_frame(m_ab, 1, "x", exposure);
+PreviewView view_of(const Pose& b_from_a, double exposure = 1.0) {
+  const RgbdFramePtr frame = textured_frame(b_from_a, 1, "x", exposure);
   return make_view(make_preview(frame->depth, frame->bgr, 0.001), kTestCamera);
 }
 
@@ -71,10 +71,10 @@ TEST(PreviewAlignment, LumaResidualsSetTheirOwnSpread) {
   const auto sigma_of = [&](double exposure, float noise) {
     PreviewView b = view_of(Pose::Identity(), exposure);
     for (std::size_t i = 0; i < b.size(); ++i) b.luma[i] += (i % 2 == 0 ? noise : -noise);
-    Pose motion = Pose::Identity();
+    Pose fixed_from_moving = Pose::Identity();
     AlignmentSums sums;
     AlignmentOptions options;
-    EXPECT_TRUE(align(points_of(b, 1), fixed, options, motion, sums));
+    EXPECT_TRUE(align(points_of(b, 1), fixed, options, fixed_from_moving, sums));
     return sums.luma_sigma;
   };
   EXPECT_DOUBLE_EQ(sigma_of(0.9, 0.0f), 5.0) << "never below its floor";

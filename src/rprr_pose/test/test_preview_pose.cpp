@@ -28,9 +28,9 @@ TEST(PreviewPose, FindsMotionsFromFarApart) {
     const PreviewPose found = estimate(truth);
     EXPECT_TRUE(found.verdict.accepted())
         << metres << " m, " << degrees << " deg: " << describe(found.verdict);
-    EXPECT_LT(translation_error(found.motion, truth), 0.03)
+    EXPECT_LT(translation_error(found.b_from_a, truth), 0.03)
         << metres << " m, " << degrees << " deg";
-    EXPECT_LT(rotation_error(found.motion, truth), 0.8) << metres << " m, " << degrees << " deg";
+    EXPECT_LT(rotation_error(found.b_from_a, truth), 0.8) << metres << " m, " << degrees << " deg";
   }
 }
 
@@ -38,7 +38,7 @@ TEST(PreviewPose, AnotherExposureDoesNotMatter) {
   const Pose truth = test_motion(0.12, 7.0);
   const PreviewPose found = estimate(truth, 0.7);
   EXPECT_TRUE(found.verdict.accepted()) << describe(found.verdict);
-  EXPECT_LT(translation_error(found.motion, truth), 0.03);
+  EXPECT_LT(translation_error(found.b_from_a, truth), 0.03);
 }
 
 TEST(PreviewPose, AWarmStartThatVerifiesSparesTheSearch) {
@@ -46,7 +46,7 @@ TEST(PreviewPose, AWarmStartThatVerifiesSparesTheSearch) {
   EXPECT_FALSE(estimate(truth, 1.0, {test_motion(0.10, 6.0)}).searched);
   const PreviewPose misled = estimate(truth, 1.0, {test_motion(-0.5, 40.0)});
   EXPECT_TRUE(misled.searched) << "a wrong warm start must not be believed";
-  EXPECT_LT(translation_error(misled.motion, truth), 0.03);
+  EXPECT_LT(translation_error(misled.b_from_a, truth), 0.03);
 }
 
 TEST(PreviewPose, NoOverlapIsAnAnswer) {
@@ -94,7 +94,7 @@ TEST(PreviewPose, NoWarmStartIsTooFarOff) {
   const Pose truth = test_motion(0.12, 7.0);
   const PreviewPose found = estimate(truth, 1.0, {away});
   EXPECT_TRUE(found.searched);
-  EXPECT_LT(translation_error(found.motion, truth), 0.03);
+  EXPECT_LT(translation_error(found.b_from_a, truth), 0.03);
 }
 
 TEST(PreviewPose, AFrameWithoutColourIsSurvivedAndNotBelieved) {

@@ -58,7 +58,7 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
   ASSERT_EQ(at_b.send.size(), 1u);
   ASSERT_EQ(at_a.send.size(), 1u);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
-  EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
+  EXPECT_LT(translation_error(pose().b_from_a, kTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u) << "predict, then send whole as reference";
   EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kPredict);
   ASSERT_TRUE(at_a.decisions[0].peer_preview);
@@ -78,7 +78,7 @@ TEST_F(PreviewProtocol, TheDependentMaySendDepthLossless) {
   dependent = dependent_of(options);
   exchange(1000);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
-  EXPECT_LT(translation_error(pose().motion, kTruth), 0.03);
+  EXPECT_LT(translation_error(pose().b_from_a, kTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u);
   ASSERT_TRUE(at_a.decisions[0].peer_preview);
   const BlockPreview* preview = &at_a.decisions[0].peer_preview->preview;
@@ -304,7 +304,7 @@ TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
   bad.dependent = "b";
   bad.exchange = 1;
   bad.verdict.status = PoseStatus::kAccepted;
-  bad.motion.linear() *= 2.0;
+  bad.b_from_a.linear() *= 2.0;
   dependent->receive("a", bad, 0, at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);

@@ -10,8 +10,8 @@
 namespace rprr {
 namespace {
 
-PreviewView coarse_view(const Pose& m_ab) {
-  const RgbdFramePtr frame = textured_frame(m_ab, 1, "x");
+PreviewView coarse_view(const Pose& b_from_a) {
+  const RgbdFramePtr frame = textured_frame(b_from_a, 1, "x");
   return half_view(make_view(make_preview(frame->depth, frame->bgr, 0.003), kTestCamera));
 }
 
@@ -31,9 +31,9 @@ TEST(PreviewStarts, OneIsNearTheTruthFromFarApart) {
   const PreviewView a = coarse_view(Pose::Identity());
   for (const auto& [metres, degrees] :
        {std::pair{0.0, 0.0}, {0.2, 10.0}, {0.5, -20.0}, {0.3, 30.0}, {0.8, 0.0}}) {
-    const Pose m_ab = test_motion(metres, degrees);
-    const auto [turn, shift] =
-        nearest(find_starts(CoarseMatch(coarse_view(m_ab), a), StartRange()), m_ab.inverse());
+    const Pose b_from_a = test_motion(metres, degrees);
+    const auto [turn, shift] = nearest(
+        find_starts(CoarseMatch(coarse_view(b_from_a), a), StartRange()), b_from_a.inverse());
     EXPECT_LT(turn, 14.0) << metres << " m, " << degrees << " deg";
     EXPECT_LT(shift, 0.4) << metres << " m, " << degrees << " deg";
   }

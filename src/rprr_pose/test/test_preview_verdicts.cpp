@@ -15,8 +15,8 @@ const Pose kTruth = test_motion(0.12, 7.0);
 
 using Change = std::function<void(RgbdFrame&)>;
 
-RgbdFramePtr changed(const Pose& m_ab, const std::string& robot, const Change& change) {
-  auto frame = std::make_shared<RgbdFrame>(*textured_frame(m_ab, 1, robot));
+RgbdFramePtr changed(const Pose& b_from_a, const std::string& robot, const Change& change) {
+  auto frame = std::make_shared<RgbdFrame>(*textured_frame(b_from_a, 1, robot));
   change(*frame);
   return frame;
 }

@@ -104,8 +104,8 @@ TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
   ASSERT_EQ(pair.poses.size(), 1u);
   const RelativePoseMessage& pose = pair.poses[0];
   EXPECT_TRUE(pose.verdict.accepted()) << describe(pose.verdict);
-  EXPECT_LT(translation_error(pose.motion, kTruth), 0.01);
-  EXPECT_LT(rotation_error(pose.motion, kTruth), 0.3);
+  EXPECT_LT(translation_error(pose.b_from_a, kTruth), 0.01);
+  EXPECT_LT(rotation_error(pose.b_from_a, kTruth), 0.3);
   ASSERT_EQ(pair.at_reference.size(), 2u) << "send whole as reference, then predict";
   EXPECT_EQ(pair.at_reference[0].action, FrameDecision::Action::kSendReference);
   EXPECT_EQ(pair.at_reference[1].action, FrameDecision::Action::kPredict);
@@ -156,7 +156,7 @@ TEST(SamplesProtocol, ThePapersWayResamplesAndAgrees) {
   pair.run(from_seconds(2.0));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_TRUE(pair.poses[0].verdict.accepted()) << describe(pair.poses[0].verdict);
-  EXPECT_LT(translation_error(pair.poses[0].motion, kTruth), 0.03);
+  EXPECT_LT(translation_error(pair.poses[0].b_from_a, kTruth), 0.03);
   EXPECT_EQ(pair.messages, 4 * pair.poses[0].iterations + 1);
 }
 

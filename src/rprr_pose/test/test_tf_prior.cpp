@@ -48,8 +48,8 @@ class TfPriorTest : public ::testing::Test {
     set("b/odom", kB, kNow, kBNow);
   }
   std::vector<Pose> propose(bool with_last = true, Stamp now = kNow) {
-    std::optional<KnownMotion> last;
-    if (with_last) last = KnownMotion{{kThen, kA, kThen, kB}, kLast};
+    std::optional<KnownPose> last;
+    if (with_last) last = KnownPose{{kThen, kA, kThen, kB}, kLast};
     TfPrior prior(buffer, options);
     std::vector<Pose> poses = prior.propose({now, kA, now, kB}, last);
     complaint = prior.take_complaint();
@@ -123,7 +123,7 @@ TEST_F(TfPriorTest, ARobotWithoutOdometryStandsStill) {
 TEST_F(TfPriorTest, ThePoseThenIsRememberedLongerThanTfDoes) {
   set_odometry_of_b();
   TfPrior prior(buffer, options);
-  const KnownMotion last{{kThen, kA, kThen, kB}, kLast};
+  const KnownPose last{{kThen, kA, kThen, kB}, kLast};
   ASSERT_EQ(prior.propose({kNow, kA, kNow, kB}, last).size(), 1u);
   const Stamp later = kThen + 60 * kSecond;  // tf keeps ten seconds
   set("b/odom", kB, later, kBThen);
@@ -205,7 +205,7 @@ TEST_F(TfPriorTest, AFixedFrameAboveOneCameraAloneProposesNothing) {
 TEST_F(TfPriorTest, HostileFrameNamesAreHarmless) {
   set("map", kA, kNow, kANow);
   TfPrior prior(buffer, options);
-  const KnownMotion last{{kThen, kA, kThen, kB}, kLast};
+  const KnownPose last{{kThen, kA, kThen, kB}, kLast};
   for (const std::string& name : {std::string(), std::string("/"), std::string(kA),
                                   std::string(100000, 'x'), std::string("\0\n", 2)}) {
     for (const Stamp at : {kNow, Stamp{-1}, Stamp{0}}) {

@@ -35,9 +35,9 @@ class TfPriorNodes : public PreviewNodes {
     return instance;
   }
   /// A pose that is neither near the identity nor near the last one.
-  void put_b(const Pose& m_ab) {
-    truth = m_ab;
-    moved = std::make_unique<CameraOfRobot>(nh, "eyebug_b", m_ab);
+  void put_b(const Pose& b_from_a) {
+    truth = b_from_a;
+    moved = std::make_unique<CameraOfRobot>(nh, "eyebug_b", b_from_a);
     ASSERT_TRUE(wait([this] { return moved->connected(); }));
   }
   bool exchange_moved() {

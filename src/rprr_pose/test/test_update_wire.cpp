@@ -36,7 +36,7 @@ TEST(UpdateWire, RequestRoundTripsToTheRoundedPose) {
   EXPECT_EQ(back->points_iteration, 2);
   EXPECT_FALSE(back->by_noise);
   EXPECT_NEAR(back->c, 0.0123, 1e-7);
-  EXPECT_LT((back->motion.matrix() - request.motion.matrix()).norm(), 1e-6);
+  EXPECT_LT((back->b_from_a.matrix() - request.b_from_a.matrix()).norm(), 1e-6);
 }
 
 TEST(UpdateWire, RoundingAPoseTwiceIsRoundingItOnce) {
@@ -63,10 +63,10 @@ TEST(UpdateWire, KindsAreNotMixedUp) {
 
 TEST(UpdateWire, ImpossibleNumbersAreErrors) {
   PoseRequest request;
-  request.motion.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  request.b_from_a.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(decode_request(encode_request(request)));
   request = {};
-  request.motion.translation().x() = 1e6;
+  request.b_from_a.translation().x() = 1e6;
   EXPECT_FALSE(decode_request(encode_request(request)));
   request = {};
   request.c = -1.0;
@@ -99,7 +99,7 @@ TEST(UpdateWire, EveryCutIsAnErrorAndHostileBytesNeverCrash) {
     }
     const Result<PoseRequest> request = decode_request(bytes);
     if (request) {
-      ASSERT_TRUE(is_rigid(request->motion));
+      ASSERT_TRUE(is_rigid(request->b_from_a));
     }
   }
 }

@@ -20,16 +20,16 @@ inline cv::Vec3b corner_colour(const Eigen::Vector3d& p, double exposure) {
 }
 
 /// Depth and colour of camera b that stands where M_ab says (identity: camera a).
-inline RgbdFramePtr textured_frame(const Pose& m_ab, Stamp stamp, const std::string& robot,
+inline RgbdFramePtr textured_frame(const Pose& b_from_a, Stamp stamp, const std::string& robot,
                                    double exposure = 1.0) {
-  auto frame = std::make_shared<RgbdFrame>(*corner_frame(m_ab, stamp, robot));
+  auto frame = std::make_shared<RgbdFrame>(*corner_frame(b_from_a, stamp, robot));
   frame->bgr.create(kTestCamera.height, kTestCamera.width, CV_8UC3);
-  const Pose b_in_a = m_ab.inverse();
+  const Pose a_from_b = b_from_a.inverse();
   for (int v = 0; v < kTestCamera.height; ++v) {
     for (int u = 0; u < kTestCamera.width; ++u) {
-      const Eigen::Vector3d ray = b_in_a.linear() * kTestCamera.unproject(u, v, 1.0);
+      const Eigen::Vector3d ray = a_from_b.linear() * kTestCamera.unproject(u, v, 1.0);
       const Eigen::Vector3d point =
-          b_in_a.translation() + corner_depth(b_in_a.translation(), ray) * ray;
+          a_from_b.translation() + corner_depth(a_from_b.translation(), ray) * ray;
       frame->bgr.at<cv::Vec3b>(v, u) = corner_colour(point, exposure);
     }
   }

@@ -72,10 +72,10 @@ float Decider::tolerance(float z, double resolution) const {
 }
 
 BlockDecision Decider::decide(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                              const Camera& b_camera, const Pose& m_ab,
+                              const Camera& b_camera, const Pose& b_from_a,
                               const BlockPreview* b_preview) {
   BlockDecision decision;
-  decision.send.colour = predictor_.predict(a, a_camera, b_camera, m_ab);
+  decision.send.colour = predictor_.predict(a, a_camera, b_camera, b_from_a);
   const bool fits = b_preview != nullptr && usable(*b_preview, b_camera) &&
                     of_size(a.counts, a_camera) && of_size(a_bgr, a_camera) &&
                     a_bgr.type() == CV_8UC3 && a_bgr.isContinuous();
@@ -87,7 +87,7 @@ BlockDecision Decider::decide(const DepthFrame& a, const cv::Mat& a_bgr, const C
   decision.from_preview = true;
   decision.send = {BlockMask(b_preview->grid), BlockMask(b_preview->grid)};
   gather(a_bgr, *b_preview);
-  look_back(a_camera, b_camera, m_ab, *b_preview);
+  look_back(a_camera, b_camera, b_from_a, *b_preview);
   judge_surfaces(*b_preview, decision);
   judge_colours(*b_preview, decision);
   return decision;
@@ -118,15 +118,15 @@ void Decider::gather(const cv::Mat& a_bgr, const BlockPreview& b) {
   }
 }
 
-void Decider::look_back(const Camera& a_camera, const Camera& b_camera, const Pose& m_ab,
+void Decider::look_back(const Camera& a_camera, const Camera& b_camera, const Pose& b_from_a,
                         const BlockPreview& b) {
-  const Pose m_ba = m_ab.inverse();
+  const Pose a_from_b = b_from_a.inverse();
   for (int block = 0; block < b.grid.count(); ++block) {
     if (!b.valid(block)) continue;
     const cv::Rect rect = b.grid.rect(block);
     const Eigen::Vector3d p =
-        m_ba * b_camera.unproject(rect.x + 0.5 * (rect.width - 1), rect.y + 0.5 * (rect.height - 1),
-                                  b.metres(block));
+        a_from_b * b_camera.unproject(rect.x + 0.5 * (rect.width - 1),
+                                      rect.y + 0.5 * (rect.height - 1), b.metres(block));
     bool& sees = evidence_[static_cast<std::size_t>(block)].sees_a;
     sees = p.z() > 0.0;
     if (!sees) continue;

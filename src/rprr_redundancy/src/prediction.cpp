@@ -25,11 +25,11 @@ BlockMask blocks_without_depth(const cv::Mat& metres) {
 }
 
 BlockMask Predictor::predict(const DepthFrame& a, const Camera& a_camera, const Camera& b_camera,
-                             const Pose& m_ab) {
+                             const Pose& b_from_a) {
   if (a.empty() || a.width() != a_camera.width || a.height() != a_camera.height) {
     return BlockMask(BlockGrid(b_camera.width, b_camera.height), true);
   }
-  warp_depth(a, a_camera, b_camera, m_ab, warped_);
+  warp_depth(a, a_camera, b_camera, b_from_a, warped_);
   return blocks_without_depth(warped_.metres);
 }
 

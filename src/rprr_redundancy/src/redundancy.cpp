@@ -17,7 +17,7 @@ std::string problem_of(const FrameDecision& decision) {
     return exchange + "ended without an accepted pose";
   }
   if (!decision.peer_camera || !decision.peer_camera->valid()) return exchange + "gives no camera";
-  if (!is_rigid(decision.pose.motion)) return exchange + "gives a pose that is no rigid motion";
+  if (!is_rigid(decision.pose.b_from_a)) return exchange + "gives a pose that is no rigid motion";
   return {};
 }
 
@@ -76,7 +76,7 @@ void Redundancy::predict(const FrameDecision& decision, RedundancyOutput& out) {
   request.camera = *decision.peer_camera;
   request.preview = decision.peer_preview;
   request.decision =
-      decider_.decide(frame.depth, frame.bgr, frame.camera, request.camera, decision.pose.motion,
+      decider_.decide(frame.depth, frame.bgr, frame.camera, request.camera, decision.pose.b_from_a,
                       request.preview ? &request.preview->preview : nullptr);
   request.ms = watch.milliseconds();
   ms_predict_ += request.ms;
@@ -108,7 +108,7 @@ void Redundancy::decide(const FrameDecision& decision, Stamp now, RedundancyOutp
     if (reason.empty()) {
       const Stopwatch watch;
       validated = validator_.validate(frame.depth, frame.camera, *decision.peer_camera,
-                                      decision.pose.motion);
+                                      decision.pose.b_from_a);
       held.ms_validate = watch.milliseconds();
       out.validations.push_back({decision.frame, decision.exchange, validated});
     } else {
@@ -153,7 +153,7 @@ OutgoingFrame Redundancy::frame_of(const OutgoingDecision& decision, const Held&
   report.blocks_validated = static_cast<std::uint16_t>(decision.blocks_validated);
   outgoing.reference = held.decision.peer;
   outgoing.reference_stamp = held.decision.pose.stamp;
-  outgoing.b_from_a = held.decision.pose.motion;
+  outgoing.b_from_a = held.decision.pose.b_from_a;
   outgoing.mask = decision.mask;
   outgoing.depth_mask = decision.depth_mask;
   return outgoing;

@@ -41,12 +41,12 @@ void flag_outside(const std::uint16_t* counts, int width, const Eigen::Vector3f&
 }  // namespace
 
 BlockMask Validator::validate(const DepthFrame& b, const Camera& b_camera, const Camera& a_camera,
-                              const Pose& m_ab) {
+                              const Pose& b_from_a) {
   const BlockGrid grid(b_camera.width, b_camera.height);
   BlockMask mask(grid);
   if (b.empty() || b.width() != b_camera.width || b.height() != b_camera.height) return mask;
 
-  const PixelMap to_a(b_camera, a_camera, m_ab.inverse(), b.unit);
+  const PixelMap to_a(b_camera, a_camera, b_from_a.inverse(), b.unit);
   outside_.resize(static_cast<std::size_t>(grid.columns) * kBlockSide);
   std::fill(outside_.begin(), outside_.end(), std::uint8_t{0});
   for (int block_row = 0; block_row < grid.rows; ++block_row) {

@@ -40,8 +40,8 @@ TEST_P(PredictionOfBothSizes, IdentityAsksOnlyForTheHolesOfTheReference) {
 // b stands to the right of a by 32 pixels of disparity: it sees four columns of blocks more.
 TEST(Prediction, TranslationAsksForTheBorderThatTheReferenceDoesNotSee) {
   const BlockGrid grid(kVga.width, kVga.height);
-  const Pose m_ab = shift(-32.0 * 2.0 / 528.0, 0, 0);
-  const BlockMask mask = Predictor().predict(plane(kVga, 2000), kVga, kVga, m_ab);
+  const Pose b_from_a = shift(-32.0 * 2.0 / 528.0, 0, 0);
+  const BlockMask mask = Predictor().predict(plane(kVga, 2000), kVga, kVga, b_from_a);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       EXPECT_EQ(mask[grid.index(column, row)], column >= 76) << column << ", " << row;
@@ -52,8 +52,8 @@ TEST(Prediction, TranslationAsksForTheBorderThatTheReferenceDoesNotSee) {
 TEST(Prediction, DisocclusionIsAskedFor) {
   DepthFrame a = plane(kVga, 3000);
   a.counts(cv::Rect(300, 0, 40, 480)).setTo(1000);
-  const Pose m_ab = shift(-0.2, 0, 0);  // bar moves 105.6 pixels, background 35.2
-  const BlockMask mask = Predictor().predict(a, kVga, kVga, m_ab);
+  const Pose b_from_a = shift(-0.2, 0, 0);  // bar moves 105.6 pixels, background 35.2
+  const BlockMask mask = Predictor().predict(a, kVga, kVga, b_from_a);
   // Shadow of the bar: columns 304.8 - ... the background from 300 - 35.2 to 340 - 35.2 was hidden.
   const BlockGrid grid(kVga.width, kVga.height);
   EXPECT_TRUE(mask[grid.index_of_pixel(284, 240)]) << "uncovered background";

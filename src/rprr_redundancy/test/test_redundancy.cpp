@@ -47,7 +47,7 @@ FrameDecision decision(Action action, Stamp stamp, const std::string& peer,
   out.ms_pose = 3.0f;
   if (action == Action::kSendSparse || action == Action::kPredict) {
     out.pose.verdict.status = PoseStatus::kAccepted;
-    out.pose.motion = b_from_a();
+    out.pose.b_from_a = b_from_a();
     out.pose.stamp = 500;
     out.pose.dependent_stamp = stamp;
     out.peer_camera = kCamera;
@@ -166,7 +166,7 @@ TEST_F(RedundancyTest, WithoutAPredictionTheFrameGoesOutWhole) {
 
 TEST_F(RedundancyTest, DecisionsThatMakeNoSenseSendTheFrameWhole) {
   FrameDecision no_pose = decision(Action::kSendSparse, 100, "a");
-  no_pose.pose.motion.translation().x() = std::nan("");
+  no_pose.pose.b_from_a.translation().x() = std::nan("");
   FrameDecision no_camera = decision(Action::kSendSparse, 200, "a");
   no_camera.peer_camera.reset();
   FrameDecision rejected = decision(Action::kSendSparse, 300, "a");

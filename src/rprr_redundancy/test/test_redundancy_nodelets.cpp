@@ -37,7 +37,7 @@ DepthFrame depth_of(const std::string& robot) {
   return frame;
 }
 
-Pose m_ab() {
+Pose b_from_a() {
   Pose pose = Pose::Identity();
   pose.translation().x() = 0.3;
   return pose;
@@ -132,7 +132,7 @@ rprr_msgs::ExchangeEvent accepted(ros::Time stamp, const std::string& peer, std:
   event.pose.dependent_stamp = b_stamp;
   event.pose.dependent = "eyebug_b";
   event.exchange_bytes = 5000;
-  pose_to_fields(m_ab(), event.pose.translation, event.pose.rotation);
+  pose_to_fields(b_from_a(), event.pose.translation, event.pose.rotation);
   ByteWriter writer;
   put_camera(writer, kCamera);
   event.peer_camera = writer.take();
@@ -199,8 +199,9 @@ TEST_F(RedundancyNodes, AnExchangeFromEventsToOutgoingFrames) {
 
   const BlockGrid grid(160, 120);
   const Camera camera = rounded_for_wire(kCamera);
-  const BlockMask predicted = Predictor().predict(depth_of("eyebug_a"), camera, camera, m_ab());
-  const BlockMask validated = Validator().validate(depth_of("eyebug_b"), camera, camera, m_ab());
+  const BlockMask predicted = Predictor().predict(depth_of("eyebug_a"), camera, camera, b_from_a());
+  const BlockMask validated =
+      Validator().validate(depth_of("eyebug_b"), camera, camera, b_from_a());
   EXPECT_GT(validated.count(), 0);
   ASSERT_EQ(prediction.messages.size(), 1u);
   const auto sent = decode_mask(prediction.messages[0]->data, grid);
@@ -225,7 +226,7 @@ TEST_F(RedundancyNodes, AnExchangeFromEventsToOutgoingFrames) {
   EXPECT_EQ(out.blocks_validated, static_cast<std::uint32_t>(validated.count()));
   EXPECT_EQ(out.mask_bytes, ros::serialization::serializationLength(*prediction.messages[0]));
   EXPECT_EQ(out.pose_bytes, 5000u);
-  EXPECT_TRUE(pose_from_fields(out.translation, out.rotation).isApprox(m_ab()));
+  EXPECT_TRUE(pose_from_fields(out.translation, out.rotation).isApprox(b_from_a()));
 
   EXPECT_EQ(cv::countNonZero(cv::Mat(mask.messages[0]->data)),
             cv::countNonZero(expected.to_image()));
@@ -250,7 +251,7 @@ TEST_F(RedundancyNodes, APreviewDecidesColourAndDepthOfEveryBlock) {
   const auto preview = decode_preview(event.peer_preview);
   ASSERT_TRUE(preview) << preview.reason();
   const BlockDecision expected = Decider().decide(depth_of("eyebug_a"), colours_of("eyebug_a"),
-                                                  camera, camera, m_ab(), &*preview);
+                                                  camera, camera, b_from_a(), &*preview);
   ASSERT_TRUE(expected.from_preview);
   const auto sent = decode_mask_pair(prediction.messages[0]->data, grid);
   ASSERT_TRUE(sent) << sent.reason();
@@ -288,7 +289,8 @@ TEST_F(RedundancyNodes, APreviewDecidesColourAndDepthOfEveryBlock) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(xyz[i], known[5].position[i]);
 
   // b adds what it alone knows to both masks.
-  const BlockMask validated = Validator().validate(depth_of("eyebug_b"), camera, camera, m_ab());
+  const BlockMask validated =
+      Validator().validate(depth_of("eyebug_b"), camera, camera, b_from_a());
   const rprr_msgs::OutgoingFrame& out = *b_out.messages[0];
   ASSERT_TRUE(out.sparse);
   const auto colour_blocks = decode_mask(out.mask, grid);

@@ -27,14 +27,14 @@ Pose shift(double x, double y, double z) {
 
 // The definition, pixel by pixel.
 BlockMask by_definition(const DepthFrame& b, const Camera& b_camera, const Camera& a_camera,
-                        const Pose& m_ab, int min_pixels) {
+                        const Pose& b_from_a, int min_pixels) {
   const BlockGrid grid(b_camera.width, b_camera.height);
   std::vector<int> outside(static_cast<std::size_t>(grid.count()), 0);
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
       const double z = b.metres(u, v);
       if (z == 0) continue;
-      const Eigen::Vector3d p = m_ab.inverse() * b_camera.unproject(u, v, z);
+      const Eigen::Vector3d p = b_from_a.inverse() * b_camera.unproject(u, v, z);
       const bool seen =
           p.z() >= 0.05 && a_camera.contains(a_camera.project(p).x(), a_camera.project(p).y());
       if (!seen) ++outside[static_cast<std::size_t>(grid.index_of_pixel(u, v))];
@@ -59,13 +59,13 @@ TEST(Validation, IdentityFindsNothing) {
 // The paper's Fig. occlusion: a cylinder before b that stands outside of a's field of view. a's
 // prediction covers that region with background; only b can know.
 TEST(Validation, OccluderOutsideOfTheReferencesViewIsFound) {
-  const Pose m_ab = shift(0.5, 0, 0);  // b stands 0.5 m to the left of a
+  const Pose b_from_a = shift(0.5, 0, 0);  // b stands 0.5 m to the left of a
   const BlockGrid grid(kVga.width, kVga.height);
   DepthFrame b = plane(kVga, 4000);
   // At 0.6 m and column 160..200 of b: x = -0.16 m before b, -0.66 m before a, outside its view.
   b.counts(cv::Rect(160, 160, 40, 160)).setTo(600);
-  const BlockMask predicted = Predictor().predict(plane(kVga, 4000), kVga, kVga, m_ab);
-  const BlockMask validated = Validator().validate(b, kVga, kVga, m_ab);
+  const BlockMask predicted = Predictor().predict(plane(kVga, 4000), kVga, kVga, b_from_a);
+  const BlockMask validated = Validator().validate(b, kVga, kVga, b_from_a);
   for (int row = 20; row < 40; ++row) {
     for (int column = 20; column < 25; ++column) {
       EXPECT_FALSE(predicted[grid.index(column, row)]) << "a takes it for background";
@@ -107,9 +107,9 @@ TEST(Validation, AgreesWithTheDefinitionOnRandomSurfaces) {
     }
     Twist twist;
     twist << 0.3, -0.2, 0.4, 0.1, -0.2, 0.05 * trial;
-    const Pose m_ab = exp_se3(twist);
-    const BlockMask expected = by_definition(b, kPartial, kVga, m_ab, 2);
-    const BlockMask found = validator.validate(b, kPartial, kVga, m_ab);
+    const Pose b_from_a = exp_se3(twist);
+    const BlockMask expected = by_definition(b, kPartial, kVga, b_from_a, 2);
+    const BlockMask found = validator.validate(b, kPartial, kVga, b_from_a);
     int different = 0;
     for (int i = 0; i < expected.grid().count(); ++i) different += expected[i] != found[i];
     EXPECT_LE(different, 2) << "float rounding at the rim aside, of " << expected.count();

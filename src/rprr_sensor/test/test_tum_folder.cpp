@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_synthetic/random.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
@@ -225,10 +225,11 @@ TEST(RelativeMotion, MapsPointsOfAIntoB) {
   const Pose a = random_pose(1);
   const Pose b = random_pose(2);
   const Eigen::Vector3d in_world(0.3, -0.4, 2.0);
-  EXPECT_TRUE((relative_motion(a, b) * (a.inverse() * in_world)).isApprox(b.inverse() * in_world));
+  EXPECT_TRUE((relative_pose_of(a, b) * (a.inverse() * in_world)).isApprox(b.inverse() * in_world));
   Pose step = Pose::Identity();
   step.translation().z() = 0.5;  // b stands half a metre before a
-  EXPECT_NEAR((relative_motion(Pose::Identity(), step) * Eigen::Vector3d(0, 0, 2)).z(), 1.5, 1e-12);
+  EXPECT_NEAR((relative_pose_of(Pose::Identity(), step) * Eigen::Vector3d(0, 0, 2)).z(), 1.5,
+              1e-12);
 }
 
 }  // namespace

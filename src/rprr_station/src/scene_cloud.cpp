@@ -19,7 +19,7 @@ bool is_whole_image(const RebuiltFrame& frame) {
 
 // The reference's frame to this one's.
 Pose motion_of(const RebuiltFrame& frame) {
-  return frame.sparse ? frame.motion : Pose::Identity();
+  return frame.sparse ? frame.b_from_a : Pose::Identity();
 }
 
 // Whether a view shows the surface of points that another one sees.
@@ -111,7 +111,7 @@ bool SceneCloud::add(const RebuiltFrame& frame) {
   const BlockGrid& grid = frame.received_depth.grid();
   Held* held = find(frame.reference, frame.reference_stamp);
   if (held == nullptr || grid.width != frame.camera.width || grid.height != frame.camera.height ||
-      !is_rigid(frame.motion)) {
+      !is_rigid(frame.b_from_a)) {
     return false;
   }
   auto& views = held->views;

@@ -173,7 +173,7 @@ Result<EncodedFrame> Station::parse(const ReceivedMessage& message, RebuiltFrame
     return Error{"reference robot '" + encoded->reference + "' is not configured"};
   }
   const BlockGrid& grid = encoded->mask.grid();
-  if (grid.width != camera.width || grid.height != camera.height || !is_rigid(encoded->motion)) {
+  if (grid.width != camera.width || grid.height != camera.height || !is_rigid(encoded->b_from_a)) {
     return Error{"sparse frame without a usable block mask or pose"};
   }
   return encoded;
@@ -189,7 +189,7 @@ void Station::account(const ReceivedMessage& message, const EncodedFrame& encode
   frame.camera = encoded.camera;
   frame.reference = encoded.reference;
   frame.reference_stamp = encoded.reference_stamp;
-  frame.motion = encoded.motion;
+  frame.b_from_a = encoded.b_from_a;
   frame.depth_rounded = encoded.depth_rounded;
   frame.report = cleaned(encoded.report);
   frame.blocks_total = BlockGrid(encoded.camera.width, encoded.camera.height).count();
@@ -259,7 +259,7 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
   const BaseImage base{decoded->base, encoded.base_reduction, encoded.base_noise};
   const bool has_base = base.fits({encoded.camera.width, encoded.camera.height});
   synthesizer_.synthesize(reference.depth, reference.bgr, reference.camera, encoded.camera,
-                          encoded.motion, predicted_, has_base ? &base : nullptr);
+                          encoded.b_from_a, predicted_, has_base ? &base : nullptr);
   if (has_base) {
     // The base is not right where there is detail, and need not be.
     if (decoded->has_detail) forget_blocks(encoded.mask, predicted_.provenance);

@@ -67,13 +67,13 @@ TEST_P(Kitchen, PredictionIsGoodAndBackwardIsBetter) {
   }
   const Frame a = load(GetParam());
   const Frame b = load(GetParam() + 1);
-  const Pose m_ab = b.to_world.inverse() * a.to_world;
+  const Pose b_from_a = b.to_world.inverse() * a.to_world;
   double quality[2] = {0, 0};
   for (const int i : {0, 1}) {
     SynthesisOptions options;
     options.mode = i == 0 ? Synthesis::kForward : Synthesis::kBackward;
     PredictedView view;
-    ViewSynthesizer(options).synthesize(a.depth, a.bgr, kCamera, kCamera, m_ab, view);
+    ViewSynthesizer(options).synthesize(a.depth, a.bgr, kCamera, kCamera, b_from_a, view);
     const cv::Mat known = view.provenance != kNothing;
     EXPECT_GT(cv::countNonZero(known), 640 * 480 / 2);
     quality[i] = psnr(view.bgr, b.bgr, known);

@@ -20,18 +20,18 @@ constexpr double kScreenTo = 0.1;  // ... left of this
 
 // A frame of a wall, and perhaps a screen, square to the reference's axis, with a Kinect's noise.
 // motion: from the reference.
-RebuiltFrame view_of_wall(const std::string& robot, const Pose& motion, bool screen,
+RebuiltFrame view_of_wall(const std::string& robot, const Pose& b_from_a, bool screen,
                           unsigned seed) {
   RebuiltFrame frame;
   frame.robot = robot;
   frame.frame_id = robot + "_rgb_optical_frame";
   frame.camera = kCamera;
-  frame.motion = motion;
+  frame.b_from_a = b_from_a;
   frame.depth.unit = 0.001;
   frame.depth.counts.create(kCamera.height, kCamera.width, CV_16UC1);
   frame.bgr = cv::Mat(frame.depth.counts.size(), CV_8UC3, cv::Scalar(1, 2, 3));
   frame.received_depth = BlockMask(BlockGrid(kCamera.width, kCamera.height), true);
-  const Pose to_reference = motion.inverse();
+  const Pose to_reference = b_from_a.inverse();
   std::mt19937 random(seed);
   std::normal_distribution<double> noise;
   for (int v = 0; v < kCamera.height; ++v) {
@@ -54,8 +54,8 @@ RebuiltFrame reference(bool screen = false) {
   return frame;
 }
 
-RebuiltFrame dependent(const Pose& motion, bool screen = false, const std::string& robot = "b") {
-  RebuiltFrame frame = view_of_wall(robot, motion, screen, 2);
+RebuiltFrame dependent(const Pose& b_from_a, bool screen = false, const std::string& robot = "b") {
+  RebuiltFrame frame = view_of_wall(robot, b_from_a, screen, 2);
   frame.sparse = true;
   frame.stamp = 78;
   frame.reference = "a";
@@ -210,7 +210,7 @@ TEST(SceneCloud, RefusesWhatDoesNotFit) {
   frame.depth.counts = frame.depth.counts(cv::Rect(0, 0, 80, 60));
   EXPECT_FALSE(cloud.add(frame)) << "depth of another size";
   frame = dependent(stand(0.1, 0.0));
-  frame.motion.linear() *= 2;
+  frame.b_from_a.linear() *= 2;
   EXPECT_FALSE(cloud.add(frame)) << "no rigid motion";
   cloud.clear();
   EXPECT_FALSE(cloud.add(dependent(stand(0.1, 0.0)))) << "everything is forgotten";

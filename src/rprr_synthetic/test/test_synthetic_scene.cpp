@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_synthetic/trajectory.hpp"
 
 namespace rprr {
@@ -75,14 +75,14 @@ TEST(SyntheticScene, TwoViewsAgreeWhereNothingHides) {
   for (const PairPose& pair : pair_walk(4, 11)) {
     const ExactView a = room().render(kCamera, pair.a);
     const ExactView b = room().render(kCamera, pair.b);
-    const Pose motion = relative_motion(pair.a, pair.b);
+    const Pose b_from_a = relative_pose_of(pair.a, pair.b);
     int inside = 0;
     int agree = 0;
     int before = 0;  // a's point would stand in b's free sight: impossible
     for (int v = 0; v < kCamera.height; v += 3) {
       for (int u = 0; u < kCamera.width; u += 3) {
         const Eigen::Vector3d p =
-            motion * kCamera.unproject(u, v, static_cast<double>(a.metres.at<float>(v, u)));
+            b_from_a * kCamera.unproject(u, v, static_cast<double>(a.metres.at<float>(v, u)));
         if (p.z() < 0.1) continue;
         const Eigen::Vector2d pixel = kCamera.project(p);
         if (!kCamera.contains(pixel.x(), pixel.y())) continue;

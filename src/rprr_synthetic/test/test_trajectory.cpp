@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 
 namespace rprr {
@@ -27,7 +27,7 @@ TEST(Walk, StepsOfAPersonAndRigidPoses) {
   ASSERT_EQ(walk.size(), 200u);
   for (std::size_t k = 1; k < walk.size(); ++k) {
     EXPECT_TRUE(is_rigid(walk[k]));
-    const Pose step = relative_motion(walk[k - 1], walk[k]);
+    const Pose step = relative_pose_of(walk[k - 1], walk[k]);
     EXPECT_LT(step.translation().norm(), 0.15);
     EXPECT_GT(step.translation().norm(), 0.02);
     EXPECT_LT(rotation_angle(step.rotation()), 9.0 * kDegree);
@@ -37,9 +37,9 @@ TEST(Walk, StepsOfAPersonAndRigidPoses) {
 TEST(PairWalk, MotionIsWithinBounds) {
   int usual = 0;
   for (const PairPose& pair : pair_walk(100, 6)) {
-    const Pose motion = relative_motion(pair.a, pair.b);
-    const double angle = rotation_angle(motion.rotation()) / kDegree;
-    const double distance = motion.translation().norm();
+    const Pose b_from_a = relative_pose_of(pair.a, pair.b);
+    const double angle = rotation_angle(b_from_a.rotation()) / kDegree;
+    const double distance = b_from_a.translation().norm();
     EXPECT_GT(angle, 2.0);
     EXPECT_LT(angle, 26.0);
     EXPECT_GT(distance, 0.04);
@@ -53,12 +53,12 @@ TEST(PairWalk, MotionIsWithinBounds) {
 double overlap(const Scene& room, const Camera& camera, const PairPose& pair) {
   const ExactView a = room.render(camera, pair.a);
   const ExactView b = room.render(camera, pair.b);
-  const Pose motion = relative_motion(pair.a, pair.b);
+  const Pose b_from_a = relative_pose_of(pair.a, pair.b);
   int seen = 0;
   int all = 0;
   for (int v = 4; v < camera.height; v += 8) {
     for (int u = 4; u < camera.width; u += 8, ++all) {
-      const Eigen::Vector3d p = motion * camera.unproject(u, v, a.metres.at<float>(v, u));
+      const Eigen::Vector3d p = b_from_a * camera.unproject(u, v, a.metres.at<float>(v, u));
       if (p.z() <= 0.0) continue;
       const Eigen::Vector2d pixel = camera.project(p);
       if (!camera.contains(pixel.x(), pixel.y())) continue;

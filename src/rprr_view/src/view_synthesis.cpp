@@ -94,7 +94,7 @@ ViewSynthesizer::ViewSynthesizer(SynthesisOptions options)
 }
 
 void ViewSynthesizer::synthesize(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                                 const Camera& b_camera, const Pose& m_ab, PredictedView& view,
+                                 const Camera& b_camera, const Pose& b_from_a, PredictedView& view,
                                  const BaseImage* base) {
   prepare(b_camera, view);
   const cv::Size a_size(a_camera.width, a_camera.height);
@@ -105,12 +105,12 @@ void ViewSynthesizer::synthesize(const DepthFrame& a, const cv::Mat& a_bgr, cons
     return;
   }
   const bool backward = options_.mode == Synthesis::kBackward;
-  warp_depth(a, a_camera, b_camera, m_ab, warped_,
+  warp_depth(a, a_camera, b_camera, b_from_a, warped_,
              backward ? Footprint::kSurface : Footprint::kNearest);
   crack_filter_.mend(warped_.metres, view.provenance);
   cv::swap(warped_.metres, view.metres);
 
-  const PixelMap to_a(b_camera, a_camera, m_ab.inverse(), 1.0);
+  const PixelMap to_a(b_camera, a_camera, b_from_a.inverse(), 1.0);
   shifts_.release();
   if (backward && options_.align && base != nullptr && base->reduction <= kAlignment) {
     align(a_bgr, to_a, *base, view.metres);

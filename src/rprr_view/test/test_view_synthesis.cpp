@@ -48,19 +48,19 @@ TEST_P(BothModes, IdentityReproducesTheReference) {
 TEST_P(BothModes, PlaneUnderAKnownMotionAndOtherIntrinsics) {
   Twist twist;
   twist << 0.15, -0.05, 0.1, 0.05, -0.08, 0.1;
-  const Pose m_ab = exp_se3(twist);
+  const Pose b_from_a = exp_se3(twist);
   PredictedView view;
-  ViewSynthesizer(mode(GetParam())).synthesize(plane(2000), ramp(), kA, kB, m_ab, view);
+  ViewSynthesizer(mode(GetParam())).synthesize(plane(2000), ramp(), kA, kB, b_from_a, view);
   ASSERT_EQ(view.bgr.cols, kB.width);
-  const Eigen::Vector3d normal = m_ab.linear() * Eigen::Vector3d::UnitZ();
-  const double offset = normal.dot(m_ab * Eigen::Vector3d(0, 0, 2));
+  const Eigen::Vector3d normal = b_from_a.linear() * Eigen::Vector3d::UnitZ();
+  const double offset = normal.dot(b_from_a * Eigen::Vector3d(0, 0, 2));
   int inside = 0;
   int missing = 0;
   for (int v = 0; v < kB.height; ++v) {
     for (int u = 0; u < kB.width; ++u) {
       const Eigen::Vector3d ray = kB.unproject(u, v, 1.0);
       const double z = offset / normal.dot(ray);
-      const Eigen::Vector2d at = kA.project(m_ab.inverse() * (z * ray));
+      const Eigen::Vector2d at = kA.project(b_from_a.inverse() * (z * ray));
       const bool well_inside =
           at.x() > 1 && at.y() > 1 && at.x() < kA.width - 2 && at.y() < kA.height - 2;
       if (!well_inside) continue;
@@ -80,13 +80,13 @@ TEST_P(BothModes, PlaneUnderAKnownMotionAndOtherIntrinsics) {
 }
 
 TEST(ViewSynthesis, BackwardIsFinerThanForward) {
-  Pose m_ab = Pose::Identity();
-  m_ab.translation().x() = -0.5 * 2.0 / 140;  // half a pixel
+  Pose b_from_a = Pose::Identity();
+  b_from_a.translation().x() = -0.5 * 2.0 / 140;  // half a pixel
   double error[2] = {0, 0};
   for (const int i : {0, 1}) {
     PredictedView view;
     ViewSynthesizer(mode(i == 0 ? Synthesis::kForward : Synthesis::kBackward))
-        .synthesize(plane(2000), ramp(), kA, kA, m_ab, view);
+        .synthesize(plane(2000), ramp(), kA, kA, b_from_a, view);
     for (int u = 10; u < 150; ++u) error[i] += std::abs(view.bgr.at<cv::Vec3b>(60, u)[0] - u - 0.5);
   }
   EXPECT_LE(error[1], error[0]);
@@ -98,10 +98,10 @@ TEST(ViewSynthesis, DisocclusionStaysOpenAndBarColourDoesNotBleed) {
   cv::Mat bgr(kA.height, kA.width, CV_8UC3, cv::Scalar(0, 200, 0));
   a.counts(cv::Rect(70, 0, 20, 120)).setTo(1000);
   bgr(cv::Rect(70, 0, 20, 120)).setTo(cv::Scalar(0, 0, 250));
-  Pose m_ab = Pose::Identity();
-  m_ab.translation().x() = -0.2;  // bar moves by 28 pixels, background by 9.3
+  Pose b_from_a = Pose::Identity();
+  b_from_a.translation().x() = -0.2;  // bar moves by 28 pixels, background by 9.3
   PredictedView view;
-  ViewSynthesizer().synthesize(a, bgr, kA, kA, m_ab, view);
+  ViewSynthesizer().synthesize(a, bgr, kA, kA, b_from_a, view);
   EXPECT_EQ(view.provenance.at<std::uint8_t>(60, 70), kNothing);
   EXPECT_EQ(view.bgr.at<cv::Vec3b>(60, 70), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(view.bgr.at<cv::Vec3b>(60, 52), cv::Vec3b(0, 0, 250)) << "the bar";

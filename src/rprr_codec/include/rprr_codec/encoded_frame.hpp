@@ -44,14 +44,14 @@ constexpr bool is_base_reduction(int reduction) {
 struct EncodedFrame {
   Camera camera;  // of this frame's images
   bool sparse = false;
-  std::string reference;           // sparse: robot whose frame the station predicts from
-  Stamp reference_stamp = 0;       // sparse: stamp of that frame
-  Pose motion = Pose::Identity();  // sparse: M_ab, reference to this camera
-  BlockMask mask;                  // sparse: the blocks sent; empty otherwise
-  BlockMask depth_mask;            // sparse: of these, the ones with depth; empty: all of them
-  bool depth_rounded = false;      // to steps of inverse depth, since the radio was too narrow
-  Bytes depth;                     // DHC-M payload of the whole frame or of depth_blocks()
-  std::string colour_codec;        // name for ColourDecoder
+  std::string reference;             // sparse: robot whose frame the station predicts from
+  Stamp reference_stamp = 0;         // sparse: stamp of that frame
+  Pose b_from_a = Pose::Identity();  // sparse: from the reference's camera to this one, M_ab
+  BlockMask mask;                    // sparse: the blocks sent; empty otherwise
+  BlockMask depth_mask;              // sparse: of these, the ones with depth; empty: all of them
+  bool depth_rounded = false;        // to steps of inverse depth, since the radio was too narrow
+  Bytes depth;                       // DHC-M payload of the whole frame or of depth_blocks()
+  std::string colour_codec;          // name for ColourDecoder
   /// Detail: the image, or of a sparse frame the mask's blocks; empty where no block's colour is
   /// sent but the base's.
   Bytes colour;

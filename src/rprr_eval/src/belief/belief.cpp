@@ -34,7 +34,7 @@ void add_sample(const RgbdFrame& a, const RgbdFrame& b, const std::optional<Pose
   BeliefSample sample;
   sample.evidence = found.evidence;
   if (truth) {
-    const PoseError error = pose_error(found.motion, *truth);
+    const PoseError error = pose_error(found.b_from_a, *truth);
     if (!is_right(error) && !is_wrong(error)) return;
     sample.right = is_right(error);
   }

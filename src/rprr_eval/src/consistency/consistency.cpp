@@ -10,7 +10,7 @@
 #include "rprr_eval/exchange/exchange_registration.hpp"
 #include "rprr_eval/measure/median.hpp"
 #include "rprr_eval/turntable/turntable.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_synthetic/random.hpp"
 #include "rprr_synthetic/sensor_model.hpp"
 #include "rprr_synthetic/trajectory.hpp"
@@ -103,7 +103,7 @@ std::vector<TruePair> consistency_pairs(std::uint32_t seed, const ConsistencyOpt
     const auto noise_a = static_cast<std::uint32_t>(random.bits());
     const auto noise_b = static_cast<std::uint32_t>(random.bits());
     pairs.push_back({frame_of(scene, sensor_a, at_a, noise_a),
-                     frame_of(scene, sensor_b, at_b, noise_b), relative_motion(at_a, at_b)});
+                     frame_of(scene, sensor_b, at_b, noise_b), relative_pose_of(at_a, at_b)});
   }
   return pairs;
 }
@@ -119,8 +119,8 @@ PoseTrial try_pair(const TruePair& pair, const Profile& profile) {
                                               as_frame_of(*pair.b, "eyebug_b", kStamp));
   if (!outcome.pose) return trial;
   trial.verdict = outcome.pose->verdict;
-  trial.error = pose_error(outcome.pose->motion, pair.truth);
-  trial.perturbation = log_se3(outcome.pose->motion * pair.truth.inverse());
+  trial.error = pose_error(outcome.pose->b_from_a, pair.truth);
+  trial.perturbation = log_se3(outcome.pose->b_from_a * pair.truth.inverse());
   trial.covariance = outcome.pose->covariance;
   return trial;
 }

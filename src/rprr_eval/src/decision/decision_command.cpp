@@ -9,7 +9,7 @@
 
 #include "commands.hpp"
 #include "rprr_geometry/block_mask.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_redundancy/decision.hpp"
 #include "rprr_sensor/recordings/tum_folder.hpp"
 #include "rprr_view/view_synthesis.hpp"
@@ -87,20 +87,21 @@ std::string run_pair(const TumFolder& folder, std::size_t k, const Arguments& ar
   const Result<RgbdImage> a = folder.load(entry_a);
   const Result<RgbdImage> b = folder.load(entry_b);
   if (!a || !b) return a ? b.reason() : a.reason();
-  Pose m_ab = relative_motion(*entry_a.world_from_camera, *entry_b.world_from_camera);
+  Pose b_from_a = relative_pose_of(*entry_a.world_from_camera, *entry_b.world_from_camera);
   const double angle = 2.4 * static_cast<double>(k);  // another direction for every pair
-  m_ab.translation() += arguments.off_metres * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  b_from_a.translation() +=
+      arguments.off_metres * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
   const Bytes bytes = encode_preview(make_preview(b->depth, b->bgr), arguments.preview_quality);
   const Result<BlockPreview> preview = decode_preview(bytes);
   if (!preview) return preview.reason();
   const auto start = std::chrono::steady_clock::now();
   const BlockDecision decision =
-      decider.decide(a->depth, a->bgr, folder.camera, folder.camera, m_ab, &*preview);
+      decider.decide(a->depth, a->bgr, folder.camera, folder.camera, b_from_a, &*preview);
   tally.ms +=
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   ViewSynthesizer synthesizer;
   PredictedView view;
-  synthesizer.synthesize(a->depth, a->bgr, folder.camera, folder.camera, m_ab, view);
+  synthesizer.synthesize(a->depth, a->bgr, folder.camera, folder.camera, b_from_a, view);
   judge(decision, view, *b, tally);
   return {};
 }

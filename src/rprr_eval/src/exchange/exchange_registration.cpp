@@ -28,7 +28,7 @@ class ExchangeRegistration final : public Registration {
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     if (profile_.use_previews && (a.bgr.empty() || b.bgr.empty())) {
       RegistrationResult without_colour;  // a preview cannot do without
-      without_colour.motion = start;
+      without_colour.b_from_a = start;
       return without_colour;
     }
     constexpr Stamp kStamp = from_seconds(1000.0);
@@ -36,11 +36,11 @@ class ExchangeRegistration final : public Registration {
     const ExchangeOutcome outcome =
         harness.run(as_frame_of(a, kA, kStamp), as_frame_of(b, kB, kStamp));
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     result.bytes = outcome.bytes;
     if (!outcome.pose) return result;
     const PoseVerdict& verdict = outcome.pose->verdict;
-    result.motion = outcome.pose->motion;
+    result.b_from_a = outcome.pose->b_from_a;
     result.accepted = verdict.accepted();
     result.converged = has_converged(verdict);
     result.iterations = outcome.pose->iterations;

@@ -110,7 +110,7 @@ PredictedDepthQuality predicted_depth_quality(const DepthFrame& rebuilt, const D
 }
 
 double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
-               const Camera& b_camera, const Pose& m_ab) {
+               const Camera& b_camera, const Pose& b_from_a) {
   int valid = 0;
   int seen = 0;
   for (int v = kBlockSide / 2; v < a.height(); v += kBlockSide) {
@@ -118,7 +118,7 @@ double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
       const double z = a.metres(u, v);
       if (z <= 0.0) continue;
       ++valid;
-      const Eigen::Vector3d p = m_ab * a_camera.unproject(u, v, z);
+      const Eigen::Vector3d p = b_from_a * a_camera.unproject(u, v, z);
       if (p.z() <= 0.0) continue;
       const Eigen::Vector2d pixel = b_camera.project(p);
       if (!b_camera.contains(pixel.x(), pixel.y())) continue;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "rprr_eval/exchange/exchange_registration.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_radio/frame_chunk.hpp"
 #include "rprr_view/provenance.hpp"
 #include "rprr_wire/bytes.hpp"
@@ -107,10 +107,11 @@ void judge_pose(const TumFolder& folder, PreparedPair& pair) {
   const auto& world_a = folder.entries[result.a].world_from_camera;
   const auto& world_b = folder.entries[result.b].world_from_camera;
   if (!world_a || !world_b) return;
-  const Pose truth_ab = relative_motion(*world_a, *world_b);
-  result.overlap = overlap(pair.a->depth, pair.a->camera, pair.b->depth, pair.b->camera, truth_ab);
+  const Pose true_b_from_a = relative_pose_of(*world_a, *world_b);
+  result.overlap =
+      overlap(pair.a->depth, pair.a->camera, pair.b->depth, pair.b->camera, true_b_from_a);
   if (result.exchange.pose) {
-    result.pose_error = pose_error(result.exchange.pose->motion, truth_ab);
+    result.pose_error = pose_error(result.exchange.pose->b_from_a, true_b_from_a);
   }
 }
 

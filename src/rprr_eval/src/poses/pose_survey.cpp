@@ -5,7 +5,7 @@
 
 #include "rprr_eval/measure/median.hpp"
 #include "rprr_eval/measure/processor_time.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 #include "rprr_synthetic/random.hpp"
 
 namespace rprr {
@@ -48,8 +48,8 @@ Result<KnownPairs> known_pairs(FrameSource& source, std::size_t most_entries) {
     for (std::size_t k = 0; k < entries.size(); ++k) {
       if (i == k) continue;
       KnownPair pair{entries[i], entries[k], 0.0, Pose::Identity()};
-      pair.truth = relative_motion(*folder.entries[pair.a].world_from_camera,
-                                   *folder.entries[pair.b].world_from_camera);
+      pair.truth = relative_pose_of(*folder.entries[pair.a].world_from_camera,
+                                    *folder.entries[pair.b].world_from_camera);
       pair.overlap = overlap(frames[i]->depth, frames[i]->camera, frames[k]->depth,
                              frames[k]->camera, pair.truth);
       pairs.bins[overlap_bin(pair.overlap)].push_back(pair);
@@ -74,7 +74,7 @@ std::vector<KnownPair> pick(const std::vector<KnownPair>& bin, std::size_t count
 PairRecord make_record(const KnownPair& pair, const RegistrationResult& result, double ms) {
   PairRecord record;
   record.pair = pair;
-  record.error = pose_error(result.motion, pair.truth);
+  record.error = pose_error(result.b_from_a, pair.truth);
   record.solved = is_right(record.error);
   record.accepted = result.accepted;
   record.converged = result.converged;

@@ -57,7 +57,7 @@ std::optional<Pose> time_preview(RgbdFrame a, const RgbdFrame& b, const Profile&
   const PreviewPose first = estimate({});
   out.cold = timed([&] { estimate({}); });
   out.accepted = first.verdict.accepted();
-  const Pose start = near(first.motion, warm, number);
+  const Pose start = near(first.b_from_a, warm, number);
   const std::vector<Pose> starts(1, start);
   PreviewPose found;
   out.warm = timed([&] { found = estimate(starts); });

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "rprr_eval/measure/median.hpp"
-#include "rprr_geometry/motion.hpp"
+#include "rprr_geometry/relative_pose.hpp"
 
 namespace rprr {
 namespace {
@@ -57,8 +57,8 @@ std::vector<TurntablePoint> run_turntable(
         tally.point.degrees = views.degrees[k];
         const RegistrationResult result =
             methods[m]->align(*views.frames[0], *views.frames[k], Pose::Identity());
-        const Pose truth = relative_motion(views.world_from_camera[0], views.world_from_camera[k]);
-        tally.add(result, pose_error(result.motion, truth));
+        const Pose truth = relative_pose_of(views.world_from_camera[0], views.world_from_camera[k]);
+        tally.add(result, pose_error(result.b_from_a, truth));
       }
     }
   }

@@ -19,15 +19,16 @@ struct PixelMap {
   Eigen::Vector3f offset;
   Eigen::Vector3f step;
 
-  /// motion maps points of `from`'s optical frame into `to`'s.
-  PixelMap(const Camera& from, const Camera& to, const Pose& motion, double unit) {
-    Eigen::Matrix3d to_k;
-    to_k << to.fx, 0, to.cx, 0, to.fy, to.cy, 0, 0, 1;
-    Eigen::Matrix3d from_k_inverse;
-    from_k_inverse << 1 / from.fx, 0, -from.cx / from.fx, 0, 1 / from.fy, -from.cy / from.fy, 0, 0,
-        1;
-    map = to_k * motion.linear() * from_k_inverse * unit;
-    offset = (to_k * motion.translation()).cast<float>();
+  /// target_from_source maps points of the source's optical frame into the target's.
+  PixelMap(const Camera& source, const Camera& target, const Pose& target_from_source,
+           double unit) {
+    Eigen::Matrix3d target_k;
+    target_k << target.fx, 0, target.cx, 0, target.fy, target.cy, 0, 0, 1;
+    Eigen::Matrix3d source_k_inverse;
+    source_k_inverse << 1 / source.fx, 0, -source.cx / source.fx, 0, 1 / source.fy,
+        -source.cy / source.fy, 0, 0, 1;
+    map = target_k * target_from_source.linear() * source_k_inverse * unit;
+    offset = (target_k * target_from_source.translation()).cast<float>();
     step = map.col(0).cast<float>();
   }
 

@@ -23,10 +23,11 @@ enum class Footprint {
 };
 
 /// Paper eq. 1 for every valid pixel; of those that cover a target pixel the closest wins. Both
-/// cameras' intrinsics are used. motion maps points of the source's optical frame into the
-/// target's. `out` is reused between calls: no allocation while sizes stay the same. The frame must
-/// have the source camera's size.
+/// cameras' intrinsics are used. target_from_source maps points of the source's optical frame into
+/// the target's. `out` is reused between calls: no allocation while sizes stay the same. The frame
+/// must have the source camera's size.
 void warp_depth(const DepthFrame& source, const Camera& source_camera, const Camera& target_camera,
-                const Pose& motion, WarpedDepth& out, Footprint footprint = Footprint::kNearest);
+                const Pose& target_from_source, WarpedDepth& out,
+                Footprint footprint = Footprint::kNearest);
 
 }  // namespace rprr

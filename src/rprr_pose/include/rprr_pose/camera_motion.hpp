@@ -19,8 +19,8 @@ struct CameraMotion {
     kSceneChanged = 3,  // no motion explains both frames: it was large, or what is seen changed
   };
   Outcome outcome = Outcome::kUnknown;
-  Pose motion = Pose::Identity();  // with kStill and kMoved: p_later = motion p_earlier, optical
-  double metres = 0.0;             // of it
+  Pose later_from_earlier = Pose::Identity();  // with kStill and kMoved, optical
+  double metres = 0.0;                         // of it
   double radians = 0.0;
   double shared =
       0.0;  // with kStill and kMoved: share of either view that the other shows, the less

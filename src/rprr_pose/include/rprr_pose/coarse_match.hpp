@@ -24,14 +24,14 @@ class CoarseMatch {
  public:
   CoarseMatch(const PreviewView& moving, const PreviewView& fixed);
 
-  /// `motion` maps points of the moving view into the fixed one; `tolerance` is the relative depth
-  /// difference from which on depths do not agree at all.
+  /// `fixed_from_moving` maps points of the moving view into the fixed one; `tolerance` is the
+  /// relative depth difference from which on depths do not agree at all.
   CoarseScore judge(const Eigen::Matrix3f& rotation, const Eigen::Vector3f& translation,
                     float tolerance) const;
 
   /// Mean point, in the fixed view's frame, of what lands in the fixed view; 2 m ahead if nothing
   /// does.
-  Eigen::Vector3d middle(const Pose& motion) const;
+  Eigen::Vector3d middle(const Pose& fixed_from_moving) const;
 
   /// Median depth of the moving view, metres: what cells without a reading are taken for.
   float typical_depth() const { return typical_depth_; }

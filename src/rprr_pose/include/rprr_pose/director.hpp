@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rprr_pose/exchange.hpp"
-#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/pose_prior.hpp"
 #include "rprr_pose/preview_pose.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/recent_frames.hpp"
@@ -26,7 +26,7 @@ namespace rprr {
 class Director final : public ExchangeRole {
  public:
   /// name: whom previews are addressed to. prior may be empty.
-  Director(std::string name, const PreviewOptions& options, MotionPrior prior = {});
+  Director(std::string name, const PreviewOptions& options, PosePrior prior = {});
 
   /// Only previews of robots added here are answered.
   void add_dependent(const std::string& robot) { dependents_[robot]; }
@@ -41,7 +41,7 @@ class Director final : public ExchangeRole {
   /// What the director knows of one robot that asks it.
   struct Dependent {
     std::optional<Camera> camera;
-    std::optional<KnownMotion> last_accepted;
+    std::optional<KnownPose> last_accepted;
     bool last_is_fresh = false;           // the last exchange was accepted
     std::optional<PreviewMessage> early;  // a preview whose frame is not here yet
     Stamp early_deadline = 0;
@@ -83,7 +83,7 @@ class Director final : public ExchangeRole {
 
   const std::string name_;
   const PreviewOptions options_;
-  const MotionPrior prior_;
+  const PosePrior prior_;
   RadioState radio_;
   std::deque<Sent> sent_;  // oldest first
   RecentFrames frames_;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rprr_pose/exchange.hpp"
-#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/pose_prior.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "rprr_pose/samples_protocol.hpp"
 
@@ -39,7 +39,7 @@ class ExchangeStage final : public ExchangeRole {
  public:
   /// peers: the robots to exchange with. prior may be empty.
   ExchangeStage(const std::string& robot, const ExchangeOptions& options,
-                const std::vector<std::string>& peers, MotionPrior prior = {});
+                const std::vector<std::string>& peers, PosePrior prior = {});
 
   /// Makes the frames of a peer what this robot's frames refer to, or no longer. An exchange under
   /// way ends as it would. False: the robot is none of the peers.

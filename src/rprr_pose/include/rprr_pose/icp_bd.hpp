@@ -30,13 +30,13 @@ struct SampledSurface {
 
 /// b's half: a's points matched in Z_b (first sum of paper eq. 2), normals from Z_b.
 NormalEquations half_at_dependent(const SampledSurface& a_points, const DepthFrame& b_depth,
-                                  const Camera& b_camera, const Pose& m_ab,
+                                  const Camera& b_camera, const Pose& b_from_a,
                                   const IcpWeights& weights);
 
 /// a's half: b's points, with b's normals, matched in Z_a (second sum of paper eq. 2, with the
 /// residual (M_ab p*_{k,a} - p_{k,b}) . n_{k,b} that the paper's own K_a and y_a imply).
 NormalEquations half_at_reference(const SampledSurface& b_points, const DepthFrame& a_depth,
-                                  const Camera& a_camera, const Pose& m_ab,
+                                  const Camera& a_camera, const Pose& b_from_a,
                                   const IcpWeights& weights);
 
 /// Motion vector b of paper eq. 6. False if the system cannot be solved.

@@ -10,8 +10,8 @@ namespace rprr {
 /// iterated on a part of the points; the best few are refined on all of them. A start counts by its
 /// points that agree with Z_a less twice those that lie in seen free space.
 struct LocalAlignment {
-  Pose motion = Pose::Identity();  // M_ab
-  double score = 0.0;              // (consistent - 2 violating) / points, at most 1
+  Pose b_from_a = Pose::Identity();  // the paper's M_ab
+  double score = 0.0;                // (consistent - 2 violating) / points, at most 1
 };
 
 LocalAlignment align_locally(const SampledSurface& b_points, const DepthFrame& a_depth,

@@ -36,8 +36,8 @@ struct RelativePoseMessage {
   Stamp dependent_stamp = 0;
   std::string dependent;  // the receiver
   std::uint32_t exchange = 0;
-  PoseVerdict verdict;                   // motion means something only if it is accepted
-  Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
+  PoseVerdict verdict;                   // b_from_a means something only if it is accepted
+  Pose b_from_a = Pose::Identity();      // the paper's M_ab: p_b = b_from_a p_a
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz)
   std::uint16_t iterations = 0;
   std::uint16_t inliers = 0;

@@ -25,7 +25,8 @@ struct Agreement {
   double of_shared(double cells) const { return in_view > 0 ? cells / in_view : 0.0; }
 };
 
-/// motion maps points of the moving view into the fixed one.
-Agreement agreement(const PreviewView& moving, const PreviewView& fixed, const Pose& motion);
+/// fixed_from_moving maps points of the moving view into the fixed one.
+Agreement agreement(const PreviewView& moving, const PreviewView& fixed,
+                    const Pose& fixed_from_moving);
 
 }  // namespace rprr

@@ -70,11 +70,11 @@ struct AlignmentSums {
 };
 
 /// Gauss-Newton on point-to-plane distances (fixed normals) and luma differences (after an affine
-/// exposure change that is estimated along), projective correspondences, robust weights. motion
-/// maps points of the moving view into the fixed one and is improved in place. False if it was
-/// lost.
+/// exposure change that is estimated along), projective correspondences, robust weights.
+/// fixed_from_moving maps points of the moving view into the fixed one and is improved in place.
+/// False if it was lost.
 bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOptions& options,
-           Pose& motion, AlignmentSums& sums);
+           Pose& fixed_from_moving, AlignmentSums& sums);
 
 /// Covariance of the motion, left perturbation (tx ty tz rx ry rz), from sums with their scatter.
 Matrix6 covariance_of(const AlignmentSums& sums);

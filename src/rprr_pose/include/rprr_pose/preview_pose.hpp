@@ -33,7 +33,7 @@ struct PreviewPoseOptions {
 /// What came of it.
 struct PreviewPose {
   PoseVerdict verdict;                   // the first test that failed; accepted: the log odds
-  Pose motion = Pose::Identity();        // M_ab, p_b = M_ab p_a
+  Pose b_from_a = Pose::Identity();      // the paper's M_ab
   Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
   double score = 0.0;                    // of the pose
   double log_odds = 0.0;                 // of being right
@@ -58,7 +58,7 @@ class PreviewPoseEstimator {
 
  private:
   struct Candidate {
-    Pose motion;  // b to a
+    Pose b_from_a;
     double score = 0.0;
     Agreement b_in_a, a_in_b;
     AlignmentSums sums;

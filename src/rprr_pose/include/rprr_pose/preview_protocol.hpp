@@ -8,7 +8,7 @@
 
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_pose/exchange.hpp"
-#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/pose_prior.hpp"
 #include "rprr_pose/preview_pose.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/camera_wire.hpp"
@@ -39,7 +39,7 @@ struct PreviewOptions {
 std::unique_ptr<ExchangeRole> make_preview_reference(const std::string& self,
                                                      const std::string& peer,
                                                      const PreviewOptions& options,
-                                                     MotionPrior prior = {});
+                                                     PosePrior prior = {});
 /// Robot self as the dependent of one peer: sends it previews of its own frames.
 std::unique_ptr<ExchangeRole> make_preview_dependent(const std::string& self,
                                                      const std::string& peer,

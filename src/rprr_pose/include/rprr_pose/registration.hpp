@@ -12,9 +12,9 @@ namespace rprr {
 
 /// What a registration of two frames led to.
 struct RegistrationResult {
-  Pose motion = Pose::Identity();  // M_ab: p_b = M_ab p_a
-  bool converged = false;          // by the method's own stopping rule
-  bool accepted = false;           // the method vouches for it; without a verification: converged
+  Pose b_from_a = Pose::Identity();  // the paper's M_ab: p_b = b_from_a p_a
+  bool converged = false;            // by the method's own stopping rule
+  bool accepted = false;             // the method vouches for it; without a verification: converged
   int iterations = 0;
   double residual = 0.0;  // RMS at the last iteration, metres unless the method says otherwise
   std::size_t bytes = 0;  // exchanged by radio; 0 where both whole frames are taken for granted

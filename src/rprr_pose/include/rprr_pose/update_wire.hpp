@@ -17,7 +17,7 @@ namespace rprr {
 /// sent.
 struct PoseRequest {
   std::uint8_t iteration = 0;
-  Pose motion = Pose::Identity();
+  Pose b_from_a = Pose::Identity();
   double c = 0.0;
   bool by_noise = true;
   std::uint8_t points_iteration = 0;  // use the points sent in this iteration

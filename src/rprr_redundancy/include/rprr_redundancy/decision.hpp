@@ -53,9 +53,9 @@ class Decider {
   explicit Decider(DecisionOptions options = {}) : options_(options) {}
 
   /// b_preview may be null. A preview of another size than b's camera, or colours (CV_8UC3) that
-  /// are not of a's, count as none. m_ab maps points of a's optical frame into b's.
+  /// are not of a's, count as none. b_from_a maps points of a's optical frame into b's.
   BlockDecision decide(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                       const Camera& b_camera, const Pose& m_ab, const BlockPreview* b_preview);
+                       const Camera& b_camera, const Pose& b_from_a, const BlockPreview* b_preview);
 
   /// What the warp says of one block.
   struct Evidence {
@@ -67,7 +67,7 @@ class Decider {
 
  private:
   void gather(const cv::Mat& a_bgr, const BlockPreview& b);
-  void look_back(const Camera& a_camera, const Camera& b_camera, const Pose& m_ab,
+  void look_back(const Camera& a_camera, const Camera& b_camera, const Pose& b_from_a,
                  const BlockPreview& b);
   void judge_surfaces(const BlockPreview& b, BlockDecision& decision) const;
   /// False where too few blocks tell.

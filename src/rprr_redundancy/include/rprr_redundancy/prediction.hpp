@@ -14,11 +14,11 @@ namespace rprr {
 /// Keeps its warp buffers between frames; one object serves one thread.
 class Predictor {
  public:
-  /// B_p: the blocks of b's grid into which no pixel of a is warped. m_ab maps points of a's
+  /// B_p: the blocks of b's grid into which no pixel of a is warped. b_from_a maps points of a's
   /// optical frame into b's. Requires valid cameras; a frame that is empty or not of a_camera's
   /// size predicts nothing, so every block is in the set.
   BlockMask predict(const DepthFrame& a, const Camera& a_camera, const Camera& b_camera,
-                    const Pose& m_ab);
+                    const Pose& b_from_a);
 
   /// Z_b*, as the last call of predict() left it.
   const WarpedDepth& warped() const { return warped_; }

@@ -29,10 +29,10 @@ class Validator {
   explicit Validator(ValidationOptions options = {}) : options_(options) {}
 
   /// B_v: the blocks of b's grid with valid pixels whose warp by M_ab^-1 leaves a's image or lands
-  /// behind a's camera. m_ab maps points of a's optical frame into b's. Requires valid cameras; a
-  /// frame that is empty or not of b_camera's size yields the empty set.
+  /// behind a's camera. b_from_a maps points of a's optical frame into b's. Requires valid cameras;
+  /// a frame that is empty or not of b_camera's size yields the empty set.
   BlockMask validate(const DepthFrame& b, const Camera& b_camera, const Camera& a_camera,
-                     const Pose& m_ab);
+                     const Pose& b_from_a);
 
  private:
   ValidationOptions options_;

@@ -57,12 +57,12 @@ struct RebuiltFrame {
   std::uint32_t exchange = 0;
   bool sparse = false;
   Camera camera;
-  cv::Mat bgr;                     // CV_8UC3
-  DepthFrame depth;                // counts of the sender's own unit
-  cv::Mat provenance;              // CV_8UC1, see Provenance
-  std::string reference;           // sparse: whom it was predicted from
-  Stamp reference_stamp = 0;       // sparse
-  Pose motion = Pose::Identity();  // sparse: reference's optical frame to this one's
+  cv::Mat bgr;                       // CV_8UC3
+  DepthFrame depth;                  // counts of the sender's own unit
+  cv::Mat provenance;                // CV_8UC1, see Provenance
+  std::string reference;             // sparse: whom it was predicted from
+  Stamp reference_stamp = 0;         // sparse
+  Pose b_from_a = Pose::Identity();  // sparse: from the reference's optical frame to this one's
 
   int blocks_total = 0;
   int blocks_sent = 0;

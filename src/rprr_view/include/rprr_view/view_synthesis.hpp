@@ -45,11 +45,11 @@ class ViewSynthesizer {
  public:
   explicit ViewSynthesizer(SynthesisOptions options = {});
 
-  /// a, a_bgr (CV_8UC3, continuous): the reference frame as decoded, both of a_camera's size. m_ab
-  /// maps points of a's optical frame into b's. base: b's, which must fit b_camera, or null. view
-  /// is reused between calls. A frame that has not its camera's size predicts nothing.
+  /// a, a_bgr (CV_8UC3, continuous): the reference frame as decoded, both of a_camera's size.
+  /// b_from_a maps points of a's optical frame into b's. base: b's, which must fit b_camera, or
+  /// null. view is reused between calls. A frame that has not its camera's size predicts nothing.
   void synthesize(const DepthFrame& a, const cv::Mat& a_bgr, const Camera& a_camera,
-                  const Camera& b_camera, const Pose& m_ab, PredictedView& view,
+                  const Camera& b_camera, const Pose& b_from_a, PredictedView& view,
                   const BaseImage* base = nullptr);
 
  private:

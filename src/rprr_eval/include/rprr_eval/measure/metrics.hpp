@@ -40,7 +40,7 @@ PredictedDepthQuality predicted_depth_quality(const DepthFrame& rebuilt, const D
 /// Share of a's valid block-centre pixels whose surface b sees under the true pose: they project
 /// into b on a valid depth within 2 cm + 1.5% of it.
 double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
-               const Camera& b_camera, const Pose& m_ab);
+               const Camera& b_camera, const Pose& b_from_a);
 
 /// How far an estimate of M_ab is off.
 struct PoseError {

@@ -43,7 +43,7 @@ class Open3dFgr final : public Registration {
 
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     const auto cloud_a = cloud_of(a);
     const auto cloud_b = cloud_of(b);
     if (cloud_a->points_.size() < kFewestPoints || cloud_b->points_.size() < kFewestPoints) {
@@ -57,7 +57,7 @@ class Open3dFgr final : public Registration {
     option.maximum_correspondence_distance_ = 0.5 * kVoxel;
     const reg::RegistrationResult found = reg::FastGlobalRegistrationBasedOnFeatureMatching(
         *cloud_a, *cloud_b, *features_a, *features_b, option);
-    result.motion.matrix() = found.transformation_;
+    result.b_from_a.matrix() = found.transformation_;
     result.iterations = option.iteration_number_;
     result.converged = found.fitness_ > kFewestInliers;
     result.accepted = result.converged;

@@ -52,12 +52,12 @@ Matches match(const Features& a, const Features& b, const RgbdFrame& frame_a) {
 }
 
 double rms_pixels(const Matches& matches, const std::vector<int>& inliers, const Camera& camera,
-                  const Pose& motion) {
+                  const Pose& b_from_a) {
   double sum = 0.0;
   for (const int i : inliers) {
     const cv::Point3d& p = matches.in_a[static_cast<std::size_t>(i)];
     const cv::Point2d& seen = matches.at_b[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d expected = camera.project(motion * Eigen::Vector3d(p.x, p.y, p.z));
+    const Eigen::Vector2d expected = camera.project(b_from_a * Eigen::Vector3d(p.x, p.y, p.z));
     sum += (expected - Eigen::Vector2d(seen.x, seen.y)).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(inliers.size()));
@@ -69,7 +69,7 @@ class OrbPnp final : public Registration {
 
   RegistrationResult align(const RgbdFrame& a, const RgbdFrame& b, const Pose& start) override {
     RegistrationResult result;
-    result.motion = start;
+    result.b_from_a = start;
     if (a.bgr.empty() || b.bgr.empty()) return result;
     const Features of_a = features_of(a.bgr);
     const Features of_b = features_of(b.bgr);
@@ -88,13 +88,13 @@ class OrbPnp final : public Registration {
     }
     const Eigen::Vector3d axis(turn[0], turn[1], turn[2]);
     const double angle = axis.norm();
-    result.motion = Pose::Identity();
-    result.motion.translation() = Eigen::Vector3d(shift[0], shift[1], shift[2]);
-    if (angle > 1e-12) result.motion.rotate(Eigen::AngleAxisd(angle, axis / angle));
+    result.b_from_a = Pose::Identity();
+    result.b_from_a.translation() = Eigen::Vector3d(shift[0], shift[1], shift[2]);
+    if (angle > 1e-12) result.b_from_a.rotate(Eigen::AngleAxisd(angle, axis / angle));
     result.iterations = 1;
     result.converged = static_cast<int>(inliers.size()) >= kFewestInliers;
     result.accepted = result.converged;
-    result.residual = rms_pixels(matches, inliers, b.camera, result.motion);
+    result.residual = rms_pixels(matches, inliers, b.camera, result.b_from_a);
     return result;
   }
 };

@@ -60,7 +60,7 @@ template <typename Method, typename Cloud>
 RegistrationResult run(Method& method, const typename Cloud::Ptr& a, const typename Cloud::Ptr& b,
                        const Pose& start) {
   RegistrationResult result;
-  result.motion = start;
+  result.b_from_a = start;
   if (a->size() < kFewestPoints || b->size() < kFewestPoints) return result;
   // What it would print, the result says as well.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
@@ -69,9 +69,9 @@ RegistrationResult run(Method& method, const typename Cloud::Ptr& a, const typen
   method.setMaxCorrespondenceDistance(kReach);
   Cloud moved;
   method.align(moved, start.matrix().cast<float>());
-  const Eigen::Matrix4d motion = method.getFinalTransformation().template cast<double>();
-  if (!motion.allFinite()) return result;
-  result.motion.matrix() = motion;
+  const Eigen::Matrix4d b_from_a = method.getFinalTransformation().template cast<double>();
+  if (!b_from_a.allFinite()) return result;
+  result.b_from_a.matrix() = b_from_a;
   result.converged = method.hasConverged();
   result.accepted = result.converged;
   result.residual = std::sqrt(method.getFitnessScore(kReach));

@@ -20,16 +20,16 @@ struct FrameNames {
 };
 
 /// A pose that was accepted earlier.
-struct KnownMotion {
+struct KnownPose {
   FrameNames frames;
-  Pose motion = Pose::Identity();  // M_ab, p_b = M_ab p_a
+  Pose b_from_a = Pose::Identity();  // the paper's M_ab
 };
 
 /// What else a robot knows of the pose to a peer (tf, odometry): M_ab of the frames worth trying
 /// before a search, the likeliest first; none is fine. `last` is the pose accepted last, however
 /// long ago. Nothing proposed is believed: it is refined and verified like the outcome of a search,
 /// at one to two milliseconds each. Called on the director's thread; must not block.
-using MotionPrior = std::function<std::vector<Pose>(
-    const std::string& peer, const FrameNames& frames, const std::optional<KnownMotion>& last)>;
+using PosePrior = std::function<std::vector<Pose>(const std::string& peer, const FrameNames& frames,
+                                                  const std::optional<KnownPose>& last)>;
 
 }  // namespace rprr

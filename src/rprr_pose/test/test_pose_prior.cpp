@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rprr_pose/motion_prior.hpp"
+#include "rprr_pose/pose_prior.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ class MotionPriorTest : public ::testing::Test {
   MotionPriorTest() : dependent(make_preview_dependent("b", "a", {})) {
     reference = make_preview_reference("a", "b", near_in_time(),
                                        [this](const std::string& peer, const FrameNames& now,
-                                              const std::optional<KnownMotion>& known) {
+                                              const std::optional<KnownPose>& known) {
                                          asked_peer = peer;
                                          asked = now;
                                          last = known;
@@ -35,24 +35,24 @@ class MotionPriorTest : public ::testing::Test {
   }
 
   // One exchange over a channel without faults.
-  RelativePoseMessage exchange(Stamp stamp, const Pose& m_ab = kTruth) {
+  RelativePoseMessage exchange(Stamp stamp, const Pose& b_from_a = kTruth) {
     RoleOutput at_a, at_b;
     reference->offer(textured_frame(Pose::Identity(), stamp, "a"), 0, at_a);
-    dependent->offer(textured_frame(m_ab, stamp + 5, "b"), 0, at_b);
+    dependent->offer(textured_frame(b_from_a, stamp + 5, "b"), 0, at_b);
     for (const PoseMessage& message : at_b.send) reference->receive("b", message, 0, at_a);
     for (const PoseMessage& message : at_a.send) dependent->receive("a", message, 0, at_b);
     return std::get<RelativePoseMessage>(at_a.send.at(0));
   }
   static void expect_right(const RelativePoseMessage& pose, const Pose& truth = kTruth) {
     EXPECT_TRUE(pose.verdict.accepted()) << describe(pose.verdict);
-    EXPECT_LT(translation_error(pose.motion, truth), 0.03);
-    EXPECT_LT(rotation_error(pose.motion, truth), 0.7);
+    EXPECT_LT(translation_error(pose.b_from_a, truth), 0.03);
+    EXPECT_LT(rotation_error(pose.b_from_a, truth), 0.7);
   }
 
   std::vector<Pose> proposals;  // what the prior answers
   std::string asked_peer;       // of whom it was asked
   FrameNames asked;             // what it was asked
-  std::optional<KnownMotion> last;
+  std::optional<KnownPose> last;
   std::unique_ptr<ExchangeRole> reference, dependent;
 };
 
@@ -88,7 +88,7 @@ TEST_F(MotionPriorTest, WithoutEvidenceToSpareTheSearchDecides) {
   options.search.limits.warm_evidence = 100.0;  // more than there can be
   reference = make_preview_reference(
       "a", "b", options,
-      [](const std::string&, const FrameNames&, const std::optional<KnownMotion>&) {
+      [](const std::string&, const FrameNames&, const std::optional<KnownPose>&) {
         return std::vector<Pose>{kTruth};
       });
   const RelativePoseMessage pose = exchange(1000);
@@ -140,7 +140,7 @@ TEST_F(MotionPriorTest, IsAskedWithBothFramesAndTheLastAcceptedPose) {
   ASSERT_TRUE(last);
   EXPECT_EQ(last->frames.a_stamp, 1000);
   EXPECT_EQ(last->frames.b_stamp, 1005);
-  EXPECT_LT(translation_error(last->motion, kTruth), 0.03);
+  EXPECT_LT(translation_error(last->b_from_a, kTruth), 0.03);
   exchange(3000);
   ASSERT_TRUE(last) << "a rejected exchange does not forget";
   EXPECT_EQ(last->frames.a_stamp, 1000);
