@@ -273,7 +273,7 @@ class EncoderNodelet : public nodelet::Nodelet {
                     "nothing is sent to it: look at the station and at the radio");
     }
     const bool same = room.ready == told_.ready && room.references == told_.references;
-    const Stamp now = steady_now();
+    const SteadyTime now = steady_now();
     if (same && now - told_at_ < kTellAgain) return;
     told_at_ = now;
     told_ = room;
@@ -297,7 +297,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameEncoder> next_encoder_;  // after a reconfiguration
   std::unique_ptr<FrameEncoder> encoder_;       // the worker's, as the next two
   RadioRoom told_;
-  Stamp told_at_ = 0;
+  SteadyTime told_at_;
   ros::Publisher publisher_;
   ros::Publisher state_;
   ros::Subscriber receipts_;

@@ -113,9 +113,9 @@ TEST(ExchangeHarness, ALatencyBeyondTheTimeoutsSendsBWhole) {
 // A role that does nothing but note what it is given; decides when it got a message, if at all.
 class Listener final : public ExchangeRole {
  public:
-  Listener(std::vector<Stamp>& arrivals, int messages_to_send, bool decides)
+  Listener(std::vector<SteadyTime>& arrivals, int messages_to_send, bool decides)
       : arrivals_(arrivals), to_send_(messages_to_send), decides_(decides) {}
-  void offer(const RgbdFramePtr& frame, Stamp /*now*/, RoleOutput& out) override {
+  void offer(const RgbdFramePtr& frame, SteadyTime /*now*/, RoleOutput& out) override {
     frame_ = frame;
     for (int i = 0; i < to_send_; ++i) {
       UpdateMessage message;
@@ -123,7 +123,7 @@ class Listener final : public ExchangeRole {
       out.send.emplace_back(message);
     }
   }
-  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override {
     EXPECT_EQ(peer, "a");
     EXPECT_EQ(std::get<UpdateMessage>(message).exchange, arrivals_.size()) << "out of order";
@@ -132,29 +132,29 @@ class Listener final : public ExchangeRole {
     out.decisions.emplace_back();
     out.decisions.back().frame = frame_;
   }
-  void tick(Stamp /*now*/, RoleOutput& /*out*/) override {}
+  void tick(SteadyTime /*now*/, RoleOutput& /*out*/) override {}
 
  private:
-  std::vector<Stamp>& arrivals_;
+  std::vector<SteadyTime>& arrivals_;
   int to_send_;
   bool decides_;
   RgbdFramePtr frame_;
 };
 
 TEST(ExchangeHarness, MessagesArriveInOrderOneLatencyLater) {
-  std::vector<Stamp> unused;
-  std::vector<Stamp> arrivals;
+  std::vector<SteadyTime> unused;
+  std::vector<SteadyTime> arrivals;
   ExchangeHarness harness({"a", std::make_unique<Listener>(unused, 3, false)},
                           {"b", std::make_unique<Listener>(arrivals, 0, true)}, kLatency);
   const auto frame = std::make_shared<RgbdFrame>();
   const ExchangeOutcome outcome = harness.run(frame, frame);
-  EXPECT_EQ(arrivals, std::vector<Stamp>({kLatency, kLatency, kLatency}));
+  EXPECT_EQ(arrivals, std::vector<SteadyTime>(3, SteadyTime(kLatency)));
   EXPECT_EQ(outcome.messages, 3);
   EXPECT_EQ(outcome.elapsed, kLatency);
 }
 
 TEST(ExchangeHarness, RolesThatNeverDecideDoNotHangIt) {
-  std::vector<Stamp> unused;
+  std::vector<SteadyTime> unused;
   ExchangeHarness harness({"a", std::make_unique<Listener>(unused, 0, false)},
                           {"b", std::make_unique<Listener>(unused, 0, false)}, kLatency);
   const auto frame = std::make_shared<RgbdFrame>();

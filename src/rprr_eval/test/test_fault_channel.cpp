@@ -26,7 +26,7 @@ int number_of(const Bytes& bytes) {
 // All messages that come out of a channel, one step of time for each that goes in.
 std::vector<Bytes> pass(FaultChannel& channel, int messages = kMessages) {
   std::vector<Bytes> out;
-  Stamp now = 0;
+  SteadyTime now;
   const auto collect = [&] {
     for (Bytes& bytes : channel.due(now)) out.push_back(std::move(bytes));
   };
@@ -80,17 +80,17 @@ TEST(FaultChannel, OnlyBytesThatMayBeFlippedAreFlipped) {
   faults.corrupt = 1.0;
   FaultChannel channel(3);
   channel.set(faults);
-  Stamp now = 0;
+  SteadyTime now;
   for (int i = 0; i < 200; ++i) {
-    channel.add({Bytes(64, 0), 20, 10}, ++now);
+    channel.add({Bytes(64, 0), 20, 10}, now += 1);
     const Bytes bytes = channel.due(now).at(0);
     const auto changed = [](std::uint8_t byte) { return byte != 0; };
     EXPECT_TRUE(std::none_of(bytes.begin(), bytes.begin() + 20, changed));
     EXPECT_TRUE(std::none_of(bytes.begin() + 30, bytes.end(), changed));
   }
-  channel.add({Bytes(64, 0), 0, 0}, ++now);
+  channel.add({Bytes(64, 0), 0, 0}, now += 1);
   EXPECT_EQ(channel.due(now).at(0), Bytes(64, 0)) << "without a range nothing is flipped";
-  channel.add({Bytes(4, 0), 20, 10}, ++now);
+  channel.add({Bytes(4, 0), 20, 10}, now += 1);
   EXPECT_EQ(channel.due(now).at(0), Bytes(4, 0)) << "a range past the end";
 }
 
@@ -111,10 +111,10 @@ TEST(FaultChannel, DelayKeepsTheOrder) {
   faults.delay = from_seconds(1.0);
   FaultChannel channel(1);
   channel.set(faults);
-  channel.add({numbered(1), 0, 0}, 0);
-  channel.add({numbered(2), 0, 0}, 0);
-  EXPECT_TRUE(channel.due(from_seconds(0.99)).empty());
-  EXPECT_EQ(numbers(channel.due(from_seconds(1.0))), (std::vector<int>{1, 2}));
+  channel.add({numbered(1), 0, 0}, {});
+  channel.add({numbered(2), 0, 0}, {});
+  EXPECT_TRUE(channel.due(steady_seconds(0.99)).empty());
+  EXPECT_EQ(numbers(channel.due(steady_seconds(1.0))), (std::vector<int>{1, 2}));
 }
 
 TEST(FaultChannel, NothingPassesWhileItIsDownAndNothingComesAfterwards) {
@@ -122,16 +122,16 @@ TEST(FaultChannel, NothingPassesWhileItIsDownAndNothingComesAfterwards) {
   faults.delay = from_seconds(1.0);
   FaultChannel channel(1);
   channel.set(faults);
-  channel.add({numbered(1), 0, 0}, 0);
+  channel.add({numbered(1), 0, 0}, {});
   Faults down;
   down.down = true;
   channel.set(down);
-  channel.add({numbered(2), 0, 0}, 0);
+  channel.add({numbered(2), 0, 0}, {});
   channel.set({});
-  EXPECT_TRUE(channel.due(from_seconds(10.0)).empty());
+  EXPECT_TRUE(channel.due(steady_seconds(10.0)).empty());
   EXPECT_EQ(channel.counts().lost, 2u);
-  channel.add({numbered(3), 0, 0}, from_seconds(10.0));
-  EXPECT_EQ(numbers(channel.due(from_seconds(10.0))), (std::vector<int>{3}));
+  channel.add({numbered(3), 0, 0}, steady_seconds(10.0));
+  EXPECT_EQ(numbers(channel.due(steady_seconds(10.0))), (std::vector<int>{3}));
 }
 
 TEST(FaultChannel, WhatIsUnderWayIsBounded) {
@@ -139,7 +139,7 @@ TEST(FaultChannel, WhatIsUnderWayIsBounded) {
   faults.delay = from_seconds(1.0);
   FaultChannel channel(1, 10);
   channel.set(faults);
-  for (int i = 0; i < 100; ++i) channel.add({numbered(i), 0, 0}, 0);
+  for (int i = 0; i < 100; ++i) channel.add({numbered(i), 0, 0}, {});
   EXPECT_EQ(channel.under_way(), 10u);
   EXPECT_EQ(channel.counts().lost, 90u);
 }

@@ -33,7 +33,7 @@ constexpr Duration kStep = from_seconds(0.02);
 template <typename Once>
 void bombard(int times, const Once& once) {
   std::size_t before = 0;
-  Stamp now = from_seconds(100.0);
+  SteadyTime now = steady_seconds(100.0);
   for (int i = 0; i < times; ++i) {
     if (i == times / 2) before = resident_bytes();
     once(now += kStep);
@@ -110,7 +110,7 @@ TEST(HostileRadio, TheStationServesWhoIsHonest) {
   for (Stamp stamp = 1000; stamp < 1004; ++stamp) good.push_back(sparse_frame(stamp));
   const std::vector<std::string> names = {"a", "b", "b", "c", "", std::string(500, 'x')};
   std::size_t rebuilt = 0;
-  bombard(80000, [&](Stamp now) {
+  bombard(80000, [&](SteadyTime now) {
     const Bytes data = mutator.mutate(mutator.one_of(good));
     const StationOutput output = station.receive(
         {mutator.one_of(names), mutator.stamp(), mutator.one_of(names), 7, data}, now);
@@ -125,7 +125,7 @@ TEST(HostileRadio, TheStationServesWhoIsHonest) {
     }
   });
   EXPECT_GT(rebuilt, 100u) << "some of it got far";
-  const Stamp now = from_seconds(10000.0);
+  const SteadyTime now = steady_seconds(10000.0);
   const Bytes whole = whole_frame();
   const Bytes sparse = sparse_frame(5000);
   const StationOutput first = station.receive({"a", 5000, "f", 1, whole}, now);
@@ -140,7 +140,7 @@ TEST(HostileRadio, ChunksTakeBoundedMemory) {
   FrameAssembler assembler(kLargest);
   Mutator mutator(2);
   const Bytes piece(3000, 7);
-  bombard(100000, [&](Stamp) {
+  bombard(100000, [&](SteadyTime) {
     FrameChunk chunk;
     chunk.frame = static_cast<std::uint16_t>(mutator.below(5));
     chunk.count =
@@ -201,7 +201,7 @@ class Exchange {
   explicit Exchange(Roles roles) : roles_(std::move(roles)) {}
 
   /// Both see something, and say what they say; mutator: null for an honest channel.
-  void run(Stamp now, Mutator* mutator) {
+  void run(SteadyTime now, Mutator* mutator) {
     const Stamp stamp = ++stamp_;
     act(
         *roles_.a,
@@ -236,7 +236,7 @@ class Exchange {
 
  private:
   template <typename Action>
-  void act(ExchangeRole& role, const Action& action, bool at_a, Mutator* mutator, Stamp) {
+  void act(ExchangeRole& role, const Action& action, bool at_a, Mutator* mutator, SteadyTime) {
     RoleOutput out;
     action(role, out);
     problems += static_cast<int>(out.problems.size());
@@ -299,8 +299,8 @@ class Exchange {
 void expect_service_after(Roles roles, int exchanges) {
   Exchange exchange(std::move(roles));
   Mutator mutator(3);
-  Stamp now = 0;
-  bombard(exchanges, [&](Stamp) { exchange.run(now += from_seconds(20.0), &mutator); });
+  SteadyTime now;
+  bombard(exchanges, [&](SteadyTime) { exchange.run(now += from_seconds(20.0), &mutator); });
   EXPECT_GT(exchange.problems, 0) << "nothing was refused";
   exchange.accepted = exchange.decisions = 0;
   for (int i = 0; i < 3; ++i) exchange.run(now += from_seconds(20.0), nullptr);
@@ -331,7 +331,7 @@ TEST(HostileRadio, EveryFrameOfBIsDecidedOnce) {
   const auto take = [&](const std::vector<OutgoingDecision>& decisions) {
     for (const OutgoingDecision& decision : decisions) decided.insert(decision.stamp);
   };
-  bombard(60000, [&](Stamp now) {
+  bombard(60000, [&](SteadyTime now) {
     if (mutator.once_in(4)) {
       ++frame;
       take(outgoing.accepted(frame, "a", static_cast<std::uint32_t>(frame), BlockMask(grid), now));
@@ -350,7 +350,7 @@ TEST(HostileRadio, EveryFrameOfBIsDecidedOnce) {
     EXPECT_LE(outgoing.waiting(), options.waiting);
     EXPECT_LE(outgoing.early_predictions(), options.early_predictions);
   });
-  take(outgoing.tick(from_seconds(1e6)));
+  take(outgoing.tick(steady_seconds(1e6)));
   EXPECT_EQ(decided.size(), static_cast<std::size_t>(frame));
   EXPECT_EQ(std::set<Stamp>(decided.begin(), decided.end()).size(), decided.size());
 }
@@ -362,7 +362,7 @@ TEST(HostileRadio, ReceiptsOfAnybodyLeaveTheQueueAlone) {
   Mutator mutator(5);
   const std::vector<std::string> names = {"a", "b", "c", "", std::string(1000, 'x')};
   Stamp stamp = 1000;
-  bombard(20000, [&](Stamp now) {
+  bombard(20000, [&](SteadyTime now) {
     queue.receipt(mutator.one_of(names), mutator.stamps(200), mutator.stamps(200), mutator.stamp(),
                   now);
     if (mutator.once_in(5)) {
@@ -381,7 +381,7 @@ TEST(HostileRadio, ReceiptsOfAnybodyLeaveTheQueueAlone) {
     EXPECT_LE(queue.room(now).references.size(), 64u);
   });
   // A frame of its own goes out in the end.
-  const Stamp later = from_seconds(1e6);
+  const SteadyTime later = steady_seconds(1e6);
   QueuedFrame frame;
   frame.stamp = ++stamp;
   queue.receipt("b", {}, {}, 0, later);

@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const StationOptions options = small_station();
   Station station(options, std::make_unique<AnyColour>());
   ByteView rest(data, size);
-  for (Stamp now = 1; rest.size >= 3; now += from_seconds(0.2)) {
+  for (SteadyTime now(1); rest.size >= 3; now += from_seconds(0.2)) {
     const std::uint8_t head = rest.data[0];
     const std::size_t stated = rest.data[1] | rest.data[2] << 8;
     const std::size_t length = std::min(stated, rest.size - 3);
@@ -57,6 +57,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     message.data = bytes;
     check(options, station, station.receive(message, now));
   }
-  check(options, station, station.tick(from_seconds(1000.0)));
+  check(options, station, station.tick(steady_seconds(1000.0)));
   return 0;
 }

@@ -15,7 +15,7 @@ constexpr double kDrift = 0.01;                    // seconds; of clocks that ar
 
 }  // namespace
 
-void ClockOffset::add(double there, double back, Stamp now) {
+void ClockOffset::add(double there, double back, SteadyTime now) {
   if (!(std::abs(there) < kMostSeconds && std::abs(back) < kMostSeconds)) return;
   const double way = there + back;
   if (way < 0.0 || way > kLongestWay) return;
@@ -29,7 +29,7 @@ void ClockOffset::add(double there, double back, Stamp now) {
   if (samples_.size() > kSamples) samples_.pop_front();
 }
 
-std::optional<ClockOffset::Estimate> ClockOffset::estimate(Stamp now) {
+std::optional<ClockOffset::Estimate> ClockOffset::estimate(SteadyTime now) {
   forget_old(now);
   const auto best = std::min_element(samples_.begin(), samples_.end(),
                                      [](const Sample& one, const Sample& other) {
@@ -44,7 +44,7 @@ bool ClockOffset::contradict(const Sample& one, const Sample& other) {
   return -one.back > other.there + kDrift || one.there + kDrift < -other.back;
 }
 
-void ClockOffset::forget_old(Stamp now) {
+void ClockOffset::forget_old(SteadyTime now) {
   while (!samples_.empty() && now - samples_.front().at > kLongest) samples_.pop_front();
 }
 

@@ -57,7 +57,7 @@ Director::Director(std::string name, const PreviewOptions& options, PosePrior pr
       estimator_(options_.search) {
 }
 
-void Director::offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) {
+void Director::offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) {
   frames_.add(frame);
   for (auto& [peer, dependent] : dependents_) {
     if (!dependent.early) continue;
@@ -67,7 +67,7 @@ void Director::offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) {
   }
 }
 
-void Director::receive(const std::string& peer, const PoseMessage& message, Stamp now,
+void Director::receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                        RoleOutput& out) {
   const auto* preview = std::get_if<PreviewMessage>(&message);
   const auto found = dependents_.find(peer);
@@ -76,7 +76,7 @@ void Director::receive(const std::string& peer, const PoseMessage& message, Stam
   answer({found->first, found->second, *preview}, now + patience(), now, out);
 }
 
-void Director::tick(Stamp now, RoleOutput& out) {
+void Director::tick(SteadyTime now, RoleOutput& out) {
   for (auto& [peer, dependent] : dependents_) {
     if (!dependent.early || now < dependent.early_deadline) continue;
     const PreviewMessage message = *std::exchange(dependent.early, std::nullopt);
@@ -91,7 +91,7 @@ void Director::tick(Stamp now, RoleOutput& out) {
   }
 }
 
-void Director::set_radio(const RadioState& radio, Stamp, RoleOutput&) {
+void Director::set_radio(const RadioState& radio, SteadyTime, RoleOutput&) {
   radio_ = radio;
 }
 
@@ -115,7 +115,7 @@ RgbdFramePtr Director::choose(Stamp stamp) const {
 }
 
 // Of the frames that were sent, the newest that the station holds, or else the newest.
-RgbdFramePtr Director::last_sent(Stamp now) {
+RgbdFramePtr Director::last_sent(SteadyTime now) {
   while (!sent_.empty() && now - sent_.front().at > options_.reference_age) sent_.pop_front();
   const auto held = std::find_if(sent_.rbegin(), sent_.rend(), [this](const Sent& sent) {
     return std::find(radio_.references.begin(), radio_.references.end(), sent.frame->stamp) !=
@@ -125,7 +125,8 @@ RgbdFramePtr Director::last_sent(Stamp now) {
   return sent_.empty() ? nullptr : sent_.back().frame;
 }
 
-void Director::answer(const Question& question, Stamp deadline, Stamp now, RoleOutput& out) {
+void Director::answer(const Question& question, SteadyTime deadline, SteadyTime now,
+                      RoleOutput& out) {
   const RgbdFramePtr frame = choose(question.message.stamp);
   // What the station holds already serves at once. Meanwhile a new one is on its way.
   const RgbdFramePtr held = is_slow() ? last_sent(now) : nullptr;
@@ -155,7 +156,7 @@ PoseVerdict Director::no_frame_near(Stamp stamp) const {
 // With the pose to `first`, or where that does not show enough of the dependent's view, to
 // `second`. The prediction is asked for first: the dependent waits for it.
 void Director::answer_with(const Question& question, const RgbdFramePtr& first,
-                           const RgbdFramePtr& second, Stamp now, RoleOutput& out) {
+                           const RgbdFramePtr& second, SteadyTime now, RoleOutput& out) {
   question.dependent.last_answered = question.message.exchange;
   const Result<PreviewContent> content = decode_preview_content(question.message.data);
   std::string wrong;
@@ -263,7 +264,7 @@ std::vector<Pose> Director::worth_trying(const Question& question, const FrameNa
   return poses;
 }
 
-void Director::send_whole(const Question& question, const RgbdFramePtr& frame, Stamp now,
+void Director::send_whole(const Question& question, const RgbdFramePtr& frame, SteadyTime now,
                           RoleOutput& out) {
   const auto same = [&frame](const Sent& sent) { return sent.frame == frame; };
   if (std::any_of(sent_.begin(), sent_.end(), same)) return;  // referred to once more

@@ -58,7 +58,7 @@ bool ExchangeStage::refers_to(const std::string& name) const {
   return found != peers_.end() && found->second.refer;
 }
 
-void ExchangeStage::offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) {
+void ExchangeStage::offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) {
   if (newest_ && frame->stamp < *newest_) ++epoch_;
   newest_ = frame->stamp;
   const Action offer = [&](ExchangeRole& role, RoleOutput& output) {
@@ -76,7 +76,7 @@ void ExchangeStage::offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out)
   }
 }
 
-void ExchangeStage::receive(const std::string& name, const PoseMessage& message, Stamp now,
+void ExchangeStage::receive(const std::string& name, const PoseMessage& message, SteadyTime now,
                             RoleOutput& out) {
   const auto found = peers_.find(name);
   if (found == peers_.end()) return;
@@ -88,12 +88,12 @@ void ExchangeStage::receive(const std::string& name, const PoseMessage& message,
   drive(is_for_reference(message) ? peer.as_reference : peer.as_dependent, out, receive);
 }
 
-void ExchangeStage::tick(Stamp now, RoleOutput& out) {
+void ExchangeStage::tick(SteadyTime now, RoleOutput& out) {
   drive_all(out, [now](ExchangeRole& role, RoleOutput& output) { role.tick(now, output); });
 }
 
 // A frame that waited for the radio is asked about at one reference, too.
-void ExchangeStage::set_radio(const RadioState& radio, Stamp now, RoleOutput& out) {
+void ExchangeStage::set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) {
   RadioState left = radio;
   const Action set = [&](ExchangeRole& role, RoleOutput& output) {
     role.set_radio(left, now, output);

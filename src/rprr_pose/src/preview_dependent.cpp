@@ -13,7 +13,7 @@ namespace {
 struct Exchange {
   std::uint32_t number = 0;
   RgbdFramePtr frame;
-  Stamp deadline = 0;
+  SteadyTime deadline;
   std::uint32_t bytes = 0;
 };
 
@@ -25,7 +25,7 @@ class PreviewDependent final : public ExchangeRole {
         options_(options),
         next_number_(options_.first_exchange) {}
 
-  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
+  void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override {
     if (!active_ || exchange_ || (last_start_ && now - *last_start_ < options_.min_period)) return;
     if (!radio_ready_) {
       waiting_ = frame;
@@ -39,12 +39,12 @@ class PreviewDependent final : public ExchangeRole {
     if (!active_) waiting_.reset();
   }
 
-  void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override {
+  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override {
     radio_ready_ = radio.ready;
     if (radio_ready_ && waiting_ && !exchange_) begin(waiting_, now, out);
   }
 
-  void receive(const std::string& peer, const PoseMessage& message, Stamp,
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime,
                RoleOutput& out) override {
     const auto* pose = std::get_if<RelativePoseMessage>(&message);
     if (peer != peer_ || !pose || pose->dependent != self_ || !exchange_ ||
@@ -77,7 +77,7 @@ class PreviewDependent final : public ExchangeRole {
     exchange_.reset();
   }
 
-  void tick(Stamp now, RoleOutput& out) override {
+  void tick(SteadyTime now, RoleOutput& out) override {
     if (exchange_ && now >= exchange_->deadline) {
       camera_sent_ = 0;  // who does not answer may not have heard it
       send_whole("no answer from " + peer_, out);
@@ -85,7 +85,7 @@ class PreviewDependent final : public ExchangeRole {
   }
 
  private:
-  void begin(RgbdFramePtr frame, Stamp now, RoleOutput& out) {
+  void begin(RgbdFramePtr frame, SteadyTime now, RoleOutput& out) {
     waiting_.reset();
     last_start_ = now;
     exchange_.emplace();
@@ -145,7 +145,7 @@ class PreviewDependent final : public ExchangeRole {
   std::optional<Camera> peer_camera_;
   std::uint32_t camera_sent_ = 0;  // hash of the own camera that the reference is known to know
   std::uint32_t next_number_;
-  std::optional<Stamp> last_start_;
+  std::optional<SteadyTime> last_start_;
 };
 
 }  // namespace

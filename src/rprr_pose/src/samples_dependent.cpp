@@ -17,7 +17,7 @@ namespace {
 struct Exchange {
   std::uint32_t number = 0;
   RgbdFramePtr frame;
-  Stamp deadline = 0;
+  SteadyTime deadline;
   std::uint8_t iteration = 0;
   std::optional<SampledSurface> a_points;  // of this iteration (resample) or of the exchange
   std::optional<Camera> a_camera;
@@ -32,7 +32,7 @@ class SamplesDependent final : public ExchangeRole {
         options_(options),
         frames_(options_.frames_kept, options_.max_stamp_difference) {}
 
-  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
+  void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override {
     frames_.add(frame);
     if (active_ && !unclaimed_since_) unclaimed_since_ = now;
     // Frames that do not fit do not make it wait longer.
@@ -41,7 +41,7 @@ class SamplesDependent final : public ExchangeRole {
     }
   }
 
-  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override {
     if (peer != peer_ || receiver_of(message) != self_) return;
     if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
@@ -58,7 +58,7 @@ class SamplesDependent final : public ExchangeRole {
     if (!active_) unclaimed_since_.reset();
   }
 
-  void tick(Stamp now, RoleOutput& out) override {
+  void tick(SteadyTime now, RoleOutput& out) override {
     if (exchange_ && now >= exchange_->deadline) {
       send_whole("exchange with " + peer_ + " timed out", now, out);
     }
@@ -79,7 +79,7 @@ class SamplesDependent final : public ExchangeRole {
   }
 
  private:
-  void on_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+  void on_samples(const SamplesMessage& message, SteadyTime now, RoleOutput& out) {
     if (exchange_ && message.exchange == exchange_->number)
       return on_more_samples(message, now, out);
     if (message.exchange == 0 || message.exchange == last_finished_) return;
@@ -87,7 +87,7 @@ class SamplesDependent final : public ExchangeRole {
   }
 
   // A new exchange: find the frame that was taken when a's was, answer with its points.
-  void begin(const SamplesMessage& message, Stamp deadline, Stamp now, RoleOutput& out) {
+  void begin(const SamplesMessage& message, SteadyTime deadline, SteadyTime now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content || content->iteration != 0) {
       if (!content) out.problems.push_back({peer_, content.reason()});
@@ -117,7 +117,7 @@ class SamplesDependent final : public ExchangeRole {
     if (early_request_) on_request(*std::exchange(early_request_, std::nullopt), now, out);
   }
 
-  void on_more_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+  void on_more_samples(const SamplesMessage& message, SteadyTime now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content) return send_whole(content.reason(), now, out);
     if (content->iteration != exchange_->iteration + 1) return;
@@ -129,7 +129,7 @@ class SamplesDependent final : public ExchangeRole {
     if (early_request_) on_request(*std::exchange(early_request_, std::nullopt), now, out);
   }
 
-  void on_request(const UpdateMessage& message, Stamp now, RoleOutput& out) {
+  void on_request(const UpdateMessage& message, SteadyTime now, RoleOutput& out) {
     if (!exchange_ || message.exchange != exchange_->number) {
       early_request_ = message;  // topics may overtake each other
       return;
@@ -154,7 +154,7 @@ class SamplesDependent final : public ExchangeRole {
     send(UpdateMessage{frame.stamp, peer_, exchange_->number, encode_half(half)}, out);
   }
 
-  void on_pose(const RelativePoseMessage& pose, Stamp now, RoleOutput& out) {
+  void on_pose(const RelativePoseMessage& pose, SteadyTime now, RoleOutput& out) {
     if (!exchange_ || pose.exchange != exchange_->number) return;
     exchange_->bytes += static_cast<std::uint32_t>(serialised_bytes(pose));
     if (!pose.verdict.accepted()) {
@@ -196,7 +196,7 @@ class SamplesDependent final : public ExchangeRole {
     out.send.push_back(std::move(message));
   }
 
-  void send_whole(const std::string& reason, Stamp now, RoleOutput& out,
+  void send_whole(const std::string& reason, SteadyTime now, RoleOutput& out,
                   const std::optional<PoseVerdict>& verdict = std::nullopt) {
     FrameDecision whole;
     whole.frame = exchange_->frame;
@@ -209,7 +209,7 @@ class SamplesDependent final : public ExchangeRole {
     close(now);
   }
 
-  void close(Stamp now) {
+  void close(SteadyTime now) {
     last_finished_ = exchange_->number;
     // Frames that came after the claimed one are still unclaimed.
     unclaimed_since_.reset();
@@ -226,10 +226,10 @@ class SamplesDependent final : public ExchangeRole {
   bool active_ = true;
   std::optional<Exchange> exchange_;
   std::optional<SamplesMessage> early_;  // a new exchange whose frame is not here yet
-  Stamp early_deadline_ = 0;
+  SteadyTime early_deadline_;
   bool unpaired_ = false;  // an exchange came to nothing for want of such a frame
   std::optional<UpdateMessage> early_request_;  // a request that overtook its samples
-  std::optional<Stamp> unclaimed_since_;  // when the first frame came that no exchange claimed
+  std::optional<SteadyTime> unclaimed_since_;  // when the first frame came that no exchange claimed
   std::uint32_t last_finished_ = 0;
 };
 

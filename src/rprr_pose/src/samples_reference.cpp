@@ -20,7 +20,7 @@ constexpr std::size_t kFewestPoints = 30;
 struct Exchange {
   std::uint32_t number = 0;
   RgbdFramePtr frame;
-  Stamp deadline = 0;
+  SteadyTime deadline;
   std::uint8_t iteration = 0;
   Pose b_from_a = Pose::Identity();  // M_ab, as it crossed the wire
   double c = 0.0;
@@ -57,12 +57,12 @@ class SamplesReference final : public ExchangeRole {
         options_(options),
         next_number_(options_.first_exchange) {}
 
-  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override {
+  void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override {
     if (!active_ || exchange_ || (started_once_ && now - last_start_ < options_.min_period)) return;
     start(frame, now, out);
   }
 
-  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override {
     if (peer != peer_ || !exchange_ || receiver_of(message) != self_) return;
     if (const auto* samples = std::get_if<SamplesMessage>(&message)) {
@@ -74,7 +74,7 @@ class SamplesReference final : public ExchangeRole {
 
   void set_active(bool active) override { active_ = active; }
 
-  void tick(Stamp now, RoleOutput& out) override {
+  void tick(SteadyTime now, RoleOutput& out) override {
     if (!exchange_ || now < exchange_->deadline) return;
     const Duration silence = now - exchange_->deadline + options_.step_timeout;
     finish(make_verdict(PoseStatus::kTimedOut, PoseQuantity::kSilence, to_seconds(silence),
@@ -83,7 +83,7 @@ class SamplesReference final : public ExchangeRole {
   }
 
  private:
-  void start(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) {
+  void start(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) {
     started_once_ = true;
     last_start_ = now;
     exchange_.emplace();
@@ -135,7 +135,7 @@ class SamplesReference final : public ExchangeRole {
     out.send.push_back(std::move(message));
   }
 
-  void on_samples(const SamplesMessage& message, Stamp now, RoleOutput& out) {
+  void on_samples(const SamplesMessage& message, SteadyTime now, RoleOutput& out) {
     Result<SamplesContent> content = decode_samples(message.data);
     if (!content) return refuse(content.reason(), out);
     if (content->iteration != exchange_->iteration || exchange_->b_points) return;
@@ -164,7 +164,7 @@ class SamplesReference final : public ExchangeRole {
     iterate(now, out);
   }
 
-  void on_half(const UpdateMessage& message, Stamp now, RoleOutput& out) {
+  void on_half(const UpdateMessage& message, SteadyTime now, RoleOutput& out) {
     const Result<PoseHalf> half = decode_half(message.data);
     if (!half) return refuse(half.reason(), out);
     if (half->iteration != exchange_->iteration || exchange_->b_half) return;
@@ -175,7 +175,7 @@ class SamplesReference final : public ExchangeRole {
   }
 
   // One step of the paper's eqs. 2-6, once both of b's answers are here.
-  void iterate(Stamp now, RoleOutput& out) {
+  void iterate(SteadyTime now, RoleOutput& out) {
     Exchange& exchange = *exchange_;
     if (!exchange.b_points || !exchange.b_half) return;
     const IcpWeights weights{exchange.c, options_.by_noise};
@@ -202,7 +202,7 @@ class SamplesReference final : public ExchangeRole {
     ask_again(now, out);
   }
 
-  void ask_again(Stamp now, RoleOutput& out) {
+  void ask_again(SteadyTime now, RoleOutput& out) {
     exchange_->deadline = now + options_.step_timeout;
     exchange_->b_half.reset();
     if (options_.resample) {
@@ -257,7 +257,7 @@ class SamplesReference final : public ExchangeRole {
   bool active_ = true;
   std::optional<Exchange> exchange_;
   std::uint32_t next_number_;
-  Stamp last_start_ = 0;
+  SteadyTime last_start_;
   bool started_once_ = false;
 };
 

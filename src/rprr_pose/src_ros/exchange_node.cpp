@@ -175,8 +175,8 @@ void ExchangeNode::take(const std::string& peer, const PoseMessage& message, dou
 
 void ExchangeNode::on_tick() {
   // An encoder that is gone must not keep exchanges from beginning.
-  if (radio_told_ != 0 && steady_now() - radio_told_ > kRadioSilence) {
-    radio_told_ = 0;
+  if (radio_told_ && steady_now() - *radio_told_ > kRadioSilence) {
+    radio_told_.reset();
     drive([&](RoleOutput& out) { stage_->set_radio({}, steady_now(), out); });
   }
   drive([&](RoleOutput& out) { stage_->tick(steady_now(), out); });

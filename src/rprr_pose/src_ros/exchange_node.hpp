@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,7 @@ class ExchangeNode {
   std::unique_ptr<ExchangeStage> stage_;  // worker thread
   ClockComparison clocks_;                // worker thread
   MotionReport motion_;                   // worker thread
-  Stamp radio_told_ = 0;                  // worker thread; when the radio's state came; 0: unknown
+  std::optional<SteadyTime> radio_told_;  // worker thread; when the radio's state came, if it did
   SenderWatch senders_;
   std::shared_ptr<RadioLinks> links_;  // null: links are not recovered
   ros::Publisher samples_, update_, preview_, pose_, decisions_;

@@ -10,7 +10,7 @@
 namespace rprr {
 namespace {
 
-constexpr Stamp kStart = from_seconds(100.0);
+constexpr SteadyTime kStart = steady_seconds(100.0);
 
 TEST(ClockOffset, IsWithinItsUncertaintyHoweverTheWaysDiffer) {
   std::mt19937 random(1);
@@ -37,7 +37,7 @@ TEST(ClockOffset, NonsenseIsIgnored) {
 TEST(ClockOffset, FollowsAClockThatIsSet) {
   ClockOffset clock;
   clock.add(0.001, 0.001, kStart);
-  const Stamp later = kStart + from_seconds(61.0);
+  const SteadyTime later = kStart + from_seconds(61.0);
   clock.add(5.05, -4.95, later);
   const auto estimate = clock.estimate(later);
   ASSERT_TRUE(estimate);

@@ -89,7 +89,7 @@ class Team {
   std::map<std::string, Pose> views_;
   std::deque<std::pair<std::string, PoseMessage>> said_;
   std::vector<std::pair<std::string, FrameDecision>> decisions_;
-  Stamp now_ = 0;
+  SteadyTime now_;
 };
 
 using Peers = std::multimap<Stamp, std::string>;
@@ -192,7 +192,7 @@ TEST(ExchangeStage, StrangersAreNoPeers) {
   EXPECT_TRUE(team["a"].set_reference("b", true));
   EXPECT_TRUE(team["a"].refers_to("b"));
   RoleOutput out;
-  team["a"].receive("x", PreviewMessage{1000, "x", "a", 5, {1, 2, 3}}, 0, out);
+  team["a"].receive("x", PreviewMessage{1000, "x", "a", 5, {1, 2, 3}}, {}, out);
   EXPECT_TRUE(out.send.empty() && out.decisions.empty() && out.problems.empty());
 }
 

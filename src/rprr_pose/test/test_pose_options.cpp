@@ -5,6 +5,7 @@
 
 #include "pose_parameters.hpp"
 #include "rprr_synthetic/option_check.hpp"
+#include "tf_prior.hpp"
 
 namespace rprr {
 namespace {

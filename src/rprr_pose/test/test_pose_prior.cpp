@@ -37,10 +37,10 @@ class MotionPriorTest : public ::testing::Test {
   // One exchange over a channel without faults.
   RelativePoseMessage exchange(Stamp stamp, const Pose& b_from_a = kTruth) {
     RoleOutput at_a, at_b;
-    reference->offer(textured_frame(Pose::Identity(), stamp, "a"), 0, at_a);
-    dependent->offer(textured_frame(b_from_a, stamp + 5, "b"), 0, at_b);
-    for (const PoseMessage& message : at_b.send) reference->receive("b", message, 0, at_a);
-    for (const PoseMessage& message : at_a.send) dependent->receive("a", message, 0, at_b);
+    reference->offer(textured_frame(Pose::Identity(), stamp, "a"), {}, at_a);
+    dependent->offer(textured_frame(b_from_a, stamp + 5, "b"), {}, at_b);
+    for (const PoseMessage& message : at_b.send) reference->receive("b", message, {}, at_a);
+    for (const PoseMessage& message : at_a.send) dependent->receive("a", message, {}, at_b);
     return std::get<RelativePoseMessage>(at_a.send.at(0));
   }
   static void expect_right(const RelativePoseMessage& pose, const Pose& truth = kTruth) {

@@ -50,7 +50,7 @@ class PreviewProtocol : public ::testing::Test {
 
   std::unique_ptr<ExchangeRole> reference, dependent;
   RoleOutput at_a, at_b;
-  Stamp now = 0;
+  SteadyTime now;
 };
 
 TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
@@ -110,20 +110,20 @@ TEST_F(PreviewProtocol, ARestartedReferenceIsToldTheCameraAgain) {
 }
 
 TEST_F(PreviewProtocol, WithoutAnAnswerBGoesOutWhole) {
-  dependent->offer(frame_b(), 0, at_b);
-  dependent->tick(from_seconds(0.9), at_b);
+  dependent->offer(frame_b(), {}, at_b);
+  dependent->tick(steady_seconds(0.9), at_b);
   EXPECT_TRUE(at_b.decisions.empty());
-  dependent->tick(from_seconds(1.1), at_b);
+  dependent->tick(steady_seconds(1.1), at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
   EXPECT_FALSE(at_b.decisions[0].reason.empty());
 }
 
 TEST_F(PreviewProtocol, AsFrameMayComeAfterBsPreview) {
-  dependent->offer(frame_b(), 0, at_b);
-  reference->receive("b", at_b.send.at(0), 0, at_a);
+  dependent->offer(frame_b(), {}, at_b);
+  reference->receive("b", at_b.send.at(0), {}, at_a);
   EXPECT_TRUE(at_a.send.empty());
-  reference->offer(frame_a(), 0, at_a);
+  reference->offer(frame_a(), {}, at_a);
   ASSERT_EQ(at_a.send.size(), 1u);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
@@ -135,47 +135,48 @@ TEST_F(PreviewProtocol, BIsToldThatNoFrameOfAIsNearInTime) {
     dependent = dependent_of();
     reference = reference_of();
     const Stamp stamp = from_seconds(100.0);
-    reference->offer(frame_a(stamp), 0, at_a);
-    dependent->offer(frame_b(stamp + from_seconds(seconds)), 0, at_b);
-    reference->receive("b", at_b.send.at(0), 0, at_a);
+    reference->offer(frame_a(stamp), {}, at_a);
+    dependent->offer(frame_b(stamp + from_seconds(seconds)), {}, at_b);
+    reference->receive("b", at_b.send.at(0), {}, at_a);
     for (const double later : {0.1, 0.2, 0.3, 0.4}) {  // frames go on, and none is of that time
-      reference->offer(frame_a(stamp + from_seconds(later)), from_seconds(later), at_a);
-      reference->tick(from_seconds(later), at_a);
+      reference->offer(frame_a(stamp + from_seconds(later)), steady_seconds(later), at_a);
+      reference->tick(steady_seconds(later), at_a);
     }
     EXPECT_TRUE(at_a.send.empty()) << "its frame may be about to arrive";
-    reference->tick(from_seconds(0.6), at_a);
+    reference->tick(steady_seconds(0.6), at_a);
     ASSERT_EQ(at_a.send.size(), 1u);
     EXPECT_EQ(pose().verdict.status, PoseStatus::kNoFrame) << describe(pose().verdict);
     EXPECT_EQ(pose().stamp, stamp + from_seconds(0.4))
         << "of a frame of its own: clocks are compared by it";
     EXPECT_TRUE(at_a.decisions.empty()) << "nothing is sent for it";
-    dependent->receive("a", at_a.send[0], from_seconds(0.6), at_b);
+    dependent->receive("a", at_a.send[0], steady_seconds(0.6), at_b);
     ASSERT_EQ(at_b.decisions.size(), 1u);
     EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
     EXPECT_NE(at_b.decisions[0].reason.find("clocks"), std::string::npos);
     EXPECT_EQ(pose().verdict.quantity, PoseQuantity::kTimeApart);
     const double nearest = seconds > 0.0 ? seconds - 0.4 : -seconds;
     EXPECT_NEAR(pose().verdict.measured, nearest, 1e-4) << describe(pose().verdict);
-    reference->tick(from_seconds(2.0), at_a);
+    reference->tick(steady_seconds(2.0), at_a);
     EXPECT_EQ(at_a.send.size(), 1u) << "once";
   }
 }
 
 TEST_F(PreviewProtocol, AReferenceWithoutAFrameStaysSilent) {
-  dependent->offer(frame_b(), 0, at_b);
-  reference->receive("b", at_b.send.at(0), 0, at_a);
-  reference->tick(from_seconds(2.0), at_a);
+  dependent->offer(frame_b(), {}, at_b);
+  reference->receive("b", at_b.send.at(0), {}, at_a);
+  reference->tick(steady_seconds(2.0), at_a);
   EXPECT_TRUE(at_a.send.empty());
 }
 
 TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) {
-  dependent->set_radio({false, {}, 0.0}, 0, at_b);
-  for (Stamp stamp = 1000; stamp < 1003; ++stamp) dependent->offer(frame_b(stamp), stamp, at_b);
+  dependent->set_radio({false, {}, 0.0}, {}, at_b);
+  for (Stamp stamp = 1000; stamp < 1003; ++stamp)
+    dependent->offer(frame_b(stamp), SteadyTime(stamp), at_b);
   EXPECT_TRUE(at_b.send.empty());
-  dependent->set_radio({true, {}, 0.0}, 1010, at_b);
+  dependent->set_radio({true, {}, 0.0}, SteadyTime(1010), at_b);
   ASSERT_EQ(at_b.send.size(), 1u);
   EXPECT_EQ(std::get<PreviewMessage>(at_b.send[0]).stamp, 1002);
-  dependent->set_radio({true, {}, 0.0}, 1011, at_b);
+  dependent->set_radio({true, {}, 0.0}, SteadyTime(1011), at_b);
   EXPECT_EQ(at_b.send.size(), 1u) << "one exchange at a time";
 }
 
@@ -221,7 +222,7 @@ TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
 
 TEST_F(BusyReference, ButNotToAnOldOne) {
   reference->set_radio({false, {1000}, 0.0}, now, at_a);
-  now = kAge + 1;
+  now = SteadyTime(kAge + 1);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 3000);
   EXPECT_EQ(at_a.decisions.size(), 2u);
@@ -249,27 +250,27 @@ TEST_F(BusyReference, ClocksThatDifferDoNotKeepItFromAnswering) {
 }
 
 TEST_F(PreviewProtocol, DoubledPreviewsAreAnsweredOnce) {
-  reference->offer(frame_a(), 0, at_a);
-  dependent->offer(frame_b(), 0, at_b);
-  reference->receive("b", at_b.send.at(0), 0, at_a);
-  reference->receive("b", at_b.send.at(0), 0, at_a);
+  reference->offer(frame_a(), {}, at_a);
+  dependent->offer(frame_b(), {}, at_b);
+  reference->receive("b", at_b.send.at(0), {}, at_a);
+  reference->receive("b", at_b.send.at(0), {}, at_a);
   EXPECT_EQ(at_a.send.size(), 1u);
 }
 
 TEST_F(PreviewProtocol, MessagesForOthersAreIgnored) {
-  reference->offer(frame_a(), 0, at_a);
-  dependent->offer(frame_b(), 0, at_b);
+  reference->offer(frame_a(), {}, at_a);
+  dependent->offer(frame_b(), {}, at_b);
   auto message = std::get<PreviewMessage>(at_b.send.at(0));
   message.receiver = "c";
-  reference->receive("b", message, 0, at_a);
+  reference->receive("b", message, {}, at_a);
   EXPECT_TRUE(at_a.send.empty());
 }
 
 TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
   std::mt19937 random(5);
-  dependent->offer(frame_b(), 0, at_b);
+  dependent->offer(frame_b(), {}, at_b);
   const auto good = std::get<PreviewMessage>(at_b.send.at(0));
-  reference->offer(frame_a(), 0, at_a);
+  reference->offer(frame_a(), {}, at_a);
   for (std::uint32_t trial = 0; trial < 300; ++trial) {
     PreviewMessage message = good;
     message.exchange = 100 + trial;
@@ -277,35 +278,35 @@ TEST_F(PreviewProtocol, HostilePreviewsAreRefusedAndServiceGoesOn) {
       message.data[random() % 40] = static_cast<std::uint8_t>(random());
     }
     if (trial % 3 == 0) message.data.resize(random() % message.data.size());
-    reference->receive("b", message, 0, at_a);
+    reference->receive("b", message, {}, at_a);
   }
   EXPECT_FALSE(at_a.problems.empty());
   for (const MessageProblem& problem : at_a.problems) EXPECT_EQ(problem.peer, "b") << problem.text;
-  dependent->tick(from_seconds(1.0), at_b);  // gives up waiting
+  dependent->tick(steady_seconds(1.0), at_b);  // gives up waiting
   for (Stamp stamp : {5000, 6000}) exchange(stamp);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
 }
 
 // A preview that waits for the reference's frame is read when that comes, not when it arrived.
 TEST_F(PreviewProtocol, APreviewThatIsReadLaterIsRefusedByItsSendersName) {
-  dependent->offer(frame_b(), 0, at_b);
+  dependent->offer(frame_b(), {}, at_b);
   auto message = std::get<PreviewMessage>(at_b.send.at(0));
   message.data[0] = 0xFF;
-  reference->receive("b", message, 0, at_a);
-  reference->offer(frame_a(), 0, at_a);
-  reference->tick(1, at_a);
+  reference->receive("b", message, {}, at_a);
+  reference->offer(frame_a(), {}, at_a);
+  reference->tick(SteadyTime(1), at_a);
   ASSERT_FALSE(at_a.problems.empty());
   EXPECT_EQ(at_a.problems.front().peer, "b");
 }
 
 TEST_F(PreviewProtocol, PosesThatAreNoneAreRefused) {
-  dependent->offer(frame_b(), 0, at_b);
+  dependent->offer(frame_b(), {}, at_b);
   RelativePoseMessage bad;
   bad.dependent = "b";
   bad.exchange = 1;
   bad.verdict.status = PoseStatus::kAccepted;
   bad.b_from_a.linear() *= 2.0;
-  dependent->receive("a", bad, 0, at_b);
+  dependent->receive("a", bad, {}, at_b);
   ASSERT_EQ(at_b.decisions.size(), 1u);
   EXPECT_EQ(at_b.decisions[0].action, FrameDecision::Action::kSendWhole);
   EXPECT_FALSE(at_b.problems.empty());

@@ -45,7 +45,7 @@ class Pair {
   }
 
   void run(Duration duration) {
-    for (const Stamp end = now + duration; now < end; now += 5 * kMillisecond) {
+    for (const SteadyTime end = now + duration; now < end; now += 5 * kMillisecond) {
       for (std::size_t waiting = in_flight.size(); waiting > 0; --waiting) {
         const auto [message, from_reference] = in_flight.front();
         in_flight.pop_front();
@@ -66,7 +66,7 @@ class Pair {
   int messages = 0;
   std::size_t bytes = 0;
   Channel channel = [](const PoseMessage& message, bool) { return std::vector{message}; };
-  Stamp now = 0;
+  SteadyTime now;
   std::unique_ptr<ExchangeRole> reference, dependent;
   std::deque<std::pair<PoseMessage, bool>> in_flight;
 

@@ -53,7 +53,8 @@ FrameAssembler::FrameAssembler(std::size_t largest_frame, std::size_t at_once)
 
 std::optional<FrameAssembler::Frame> FrameAssembler::add(Stamp stamp, const std::string& frame_id,
                                                          const FrameChunk& chunk,
-                                                         std::size_t message_bytes, Stamp now) {
+                                                         std::size_t message_bytes,
+                                                         SteadyTime now) {
   const auto done = std::make_pair(stamp, chunk.frame);
   if (std::find(complete_.begin(), complete_.end(), done) != complete_.end()) return {};
   const auto partial = find_or_begin(stamp, chunk);
@@ -81,7 +82,7 @@ std::optional<FrameAssembler::Frame> FrameAssembler::add(Stamp stamp, const std:
   return std::move(whole.frame);
 }
 
-void FrameAssembler::expire(Stamp now) {
+void FrameAssembler::expire(SteadyTime now) {
   const auto is_old = [now](const Partial& partial) { return now - partial.touched > kPatience; };
   const auto kept = std::remove_if(partial_.begin(), partial_.end(), is_old);
   incomplete_ += static_cast<std::size_t>(partial_.end() - kept);

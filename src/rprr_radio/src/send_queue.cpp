@@ -54,7 +54,7 @@ void SendQueue::set_rate(double bandwidth, double frame_rate) {
   rate_ = RateLimit(limited() ? bandwidth : 1.0);
 }
 
-std::vector<QueuedFrame> SendQueue::offer(QueuedFrame frame, Stamp now) {
+std::vector<QueuedFrame> SendQueue::offer(QueuedFrame frame, SteadyTime now) {
   std::vector<QueuedFrame> dropped;
   const bool newest_only = is_narrow() || receipts_ceased(now);
   for (auto entry = queue_.begin(); entry != queue_.end();) {
@@ -74,7 +74,7 @@ std::vector<QueuedFrame> SendQueue::offer(QueuedFrame frame, Stamp now) {
   return dropped;
 }
 
-void SendQueue::spent(std::size_t bytes, Stamp now) {
+void SendQueue::spent(std::size_t bytes, SteadyTime now) {
   if (limited()) rate_.spend(bytes, now);
   control_ += bytes;
   // Forgets slowly, so that one long message does not hold the radio back for good.
@@ -82,7 +82,7 @@ void SendQueue::spent(std::size_t bytes, Stamp now) {
 }
 
 void SendQueue::receipt(const std::string& robot, const std::vector<Stamp>& held,
-                        const std::vector<Stamp>& repeat_stamps, Stamp last, Stamp now) {
+                        const std::vector<Stamp>& repeat_stamps, Stamp last, SteadyTime now) {
   const auto known = held_.find(robot);
   last_receipt_ = now;
   if (known == held_.end()) return;
@@ -96,7 +96,7 @@ void SendQueue::receipt(const std::string& robot, const std::vector<Stamp>& held
 }
 
 // TCPROS keeps the order of messages, so what came before the last one is there or lost.
-void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp now) {
+void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, SteadyTime now) {
   const auto newest = std::find_if(in_flight_.rbegin(), in_flight_.rend(), [&](const Sent& sent) {
     return sent.stamp == last || (sent.whole && contains(held, sent.stamp));
   });
@@ -110,20 +110,20 @@ void SendQueue::acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp no
   std::size_t bytes = 0;
   for (auto sent = first; sent != newest.base(); ++sent) bytes += sent->bytes;
   // The radio was busy with those before them until they were acknowledged.
-  const Stamp since = std::max(first->at, acknowledged_at_);
+  const SteadyTime since = std::max(first->at, acknowledged_at_);
   smooth(static_cast<double>(bytes) / std::max(to_seconds(now - since), 1e-3), delivery_rate_);
   acknowledged_at_ = now;
   in_flight_.erase(in_flight_.begin(), newest.base());
 }
 
-void SendQueue::learn(const Sent& sent, Stamp now) {
+void SendQueue::learn(const Sent& sent, SteadyTime now) {
   const double seconds = std::max(to_seconds(now - sent.at), 1e-3);
   smooth(seconds, receipt_seconds_);
   if (sent.whole) smooth(std::max(to_seconds(now - sent.begun), 1e-3), whole_seconds_);
 }
 
 // How long receipts of references take, also of those that came too late.
-void SendQueue::learn_wait(const std::vector<Stamp>& held, Stamp now) {
+void SendQueue::learn_wait(const std::vector<Stamp>& held, SteadyTime now) {
   for (auto reference = awaited_.begin(); reference != awaited_.end();) {
     const bool came = contains(held, reference->stamp);
     if (came) smooth(std::max(to_seconds(now - reference->since), 1e-3), reference_seconds_);
@@ -146,7 +146,7 @@ Duration SendQueue::lost_after() const {
 
 // Also while a station that did send receipts is silent: the radio may be down, and what is handed
 // over then comes out late and all at once.
-bool SendQueue::window_is_full(Stamp now) const {
+bool SendQueue::window_is_full(SteadyTime now) const {
   if (options_.in_flight == 0 || options_.receipt_timeout == 0 || !last_receipt_) return false;
   const Duration lost = hears_receipts(now) ? lost_after() : std::max(lost_after(), kLostInSilence);
   const auto under_way = std::count_if(in_flight_.begin(), in_flight_.end(),
@@ -156,7 +156,7 @@ bool SendQueue::window_is_full(Stamp now) const {
   return static_cast<std::size_t>(under_way) >= window;
 }
 
-void SendQueue::repeat(Stamp stamp, Stamp now) {
+void SendQueue::repeat(Stamp stamp, SteadyTime now) {
   const auto kept = std::find_if(kept_.begin(), kept_.end(),
                                  [stamp](const Kept& k) { return k.message.stamp == stamp; });
   if (kept == kept_.end()) return;
@@ -172,7 +172,7 @@ void SendQueue::repeat(Stamp stamp, Stamp now) {
   ++repeated_;
 }
 
-bool SendQueue::hears_receipts(Stamp now) const {
+bool SendQueue::hears_receipts(SteadyTime now) const {
   return options_.receipt_timeout > 0 && last_receipt_ &&
          now - *last_receipt_ < options_.receipts_silence;
 }
@@ -182,13 +182,13 @@ bool SendQueue::is_held(const std::string& robot, Stamp stamp) const {
   return known != held_.end() && contains(known->second, stamp);
 }
 
-bool SendQueue::may_go(const Entry& entry, Stamp now) const {
+bool SendQueue::may_go(const Entry& entry, SteadyTime now) const {
   const QueuedFrame& frame = entry.frame;
   return !frame.sparse || !hears_receipts(now) || is_held(frame.reference, frame.reference_stamp) ||
          now - entry.offered >= reference_patience();
 }
 
-std::optional<EncodeOrder> SendQueue::next_to_encode(Stamp now) {
+std::optional<EncodeOrder> SendQueue::next_to_encode(SteadyTime now) {
   if (encoding_ || (limited() && !outgoing_.empty()) || window_is_full(now)) return {};
   const auto eligible = [&](const Entry& entry) { return may_go(entry, now); };
   auto next = std::find_if(queue_.begin(), queue_.end(), eligible);
@@ -224,7 +224,7 @@ std::size_t SendQueue::chunk_size() const {
   return std::clamp(static_cast<std::size_t>(0.1 * options_.bandwidth), kLeastChunk, kMostChunk);
 }
 
-void SendQueue::encoded(const EncodeOrder& order, Bytes data, Stamp now) {
+void SendQueue::encoded(const EncodeOrder& order, Bytes data, SteadyTime now) {
   encoding_ = false;
   const QueuedFrame& frame = order.frame;
   Message message;
@@ -246,7 +246,7 @@ void SendQueue::encoded(const EncodeOrder& order, Bytes data, Stamp now) {
   outgoing_.push_back(std::move(message));
 }
 
-std::optional<SendOrder> SendQueue::next_to_send(Stamp now) {
+std::optional<SendOrder> SendQueue::next_to_send(SteadyTime now) {
   if (outgoing_.empty()) return {};
   Message& message = outgoing_.front();
   SendOrder order{message.stamp, message.frame_id, message.exchange, {}};
@@ -275,7 +275,7 @@ std::optional<SendOrder> SendQueue::next_to_send(Stamp now) {
   return order;
 }
 
-void SendQueue::sent_all(std::size_t bytes, Stamp now) {
+void SendQueue::sent_all(std::size_t bytes, SteadyTime now) {
   const Message& message = outgoing_.front();
   if (!message.repeated) {
     in_flight_.push_back({message.stamp, message.begun, now, bytes, message.whole});
@@ -297,13 +297,13 @@ std::size_t SendQueue::bytes_left() const {
   return bytes;
 }
 
-double SendQueue::backlog(Stamp now) {
+double SendQueue::backlog(SteadyTime now) {
   if (!limited()) return 0.0;
   const double debt = to_seconds(rate_.room_at(0, now) - now);
   return debt + static_cast<double>(bytes_left()) / rate_.steady_rate();
 }
 
-RadioRoom SendQueue::room(Stamp now) {
+RadioRoom SendQueue::room(SteadyTime now) {
   RadioRoom room;
   room.frame_seconds = whole_seconds_;
   if (is_narrow()) room.ready = queue_.empty() && outgoing_.empty() && !encoding_;

@@ -17,7 +17,7 @@ constexpr Duration kSettle = from_seconds(0.3);  // what is under way comes by i
 
 }  // namespace
 
-HostWatch::Step HostWatch::step(double quiet, bool answered, Stamp now) {
+HostWatch::Step HostWatch::step(double quiet, bool answered, SteadyTime now) {
   if (quiet < kQuiet) {
     on_bytes(now);
     return Step::kNothing;
@@ -33,7 +33,7 @@ HostWatch::Step HostWatch::step(double quiet, bool answered, Stamp now) {
   return Step::kProbe;
 }
 
-HostWatch::Step HostWatch::on_answer(Stamp now) {
+HostWatch::Step HostWatch::on_answer(SteadyTime now) {
   const Duration waited = unanswered_since_ ? now - *unanswered_since_ : 0;
   const bool was_gone = unanswered_since_ && waited >= gone_after();
   learn(waited);
@@ -43,11 +43,11 @@ HostWatch::Step HostWatch::on_answer(Stamp now) {
   return Step::kNothing;
 }
 
-void HostWatch::on_bytes(Stamp now) {
+void HostWatch::on_bytes(SteadyTime now) {
   if (unanswered_since_) learn(now - *unanswered_since_);
   unanswered_since_.reset();
   renew_at_.reset();
-  next_probe_ = 0;
+  next_probe_ = {};
 }
 
 void HostWatch::learn(Duration waited) {
@@ -58,7 +58,7 @@ Duration HostWatch::gone_after() const {
   return std::clamp<Duration>(2 * slowest_, kGone, kSurelyGone);
 }
 
-double HostWatch::unanswered_for(Stamp now) const {
+double HostWatch::unanswered_for(SteadyTime now) const {
   const bool is_gone = unanswered_since_ && now - *unanswered_since_ >= gone_after();
   return is_gone ? to_seconds(now - *unanswered_since_) : 0.0;
 }

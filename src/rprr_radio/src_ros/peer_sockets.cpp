@@ -120,7 +120,7 @@ Probe::~Probe() {
   for (const Attempt& attempt : attempts_) close(attempt.socket);
 }
 
-void Probe::send(const SocketAddress& to, Stamp now) {
+void Probe::send(const SocketAddress& to, SteadyTime now) {
   const int family = to.storage.ss_family;
   const int number = socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (number < 0) return;
@@ -138,7 +138,7 @@ void Probe::add_sockets(std::set<int>& sockets) const {
   for (const Attempt& attempt : attempts_) sockets.insert(attempt.socket);
 }
 
-bool Probe::was_answered(Stamp now) {
+bool Probe::was_answered(SteadyTime now) {
   bool answered = false;
   for (auto attempt = attempts_.begin(); attempt != attempts_.end();) {
     pollfd state{attempt->socket, POLLOUT, 0};

@@ -178,7 +178,7 @@ void RadioLinks::look() {
   for (const auto& [name, peer] : peers) {
     if (peer.is_local) continue;
     Host& host = hosts_[name];
-    const Stamp now = steady_now();
+    const SteadyTime now = steady_now();
     const HostWatch::Step step = host.watch.step(peer.quiet, host.probe.was_answered(now), now);
     if (step == HostWatch::Step::kProbe) host.probe.send(peer.listener, now);
     if (step == HostWatch::Step::kRenew) {

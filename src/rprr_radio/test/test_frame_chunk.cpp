@@ -119,7 +119,7 @@ TEST(FrameAssembler, LostChunksCostTheirFrameAndNoMemory) {
 TEST(FrameAssembler, GivesUpFramesOfWhichNothingMoreComes) {
   FrameAssembler assembler;
   const std::vector<Bytes> chunks = in_chunks(some_bytes(3000, 1), 1, 1000);
-  const Stamp start = from_seconds(50.0);
+  const SteadyTime start = steady_seconds(50.0);
   assembler.add(1, "", *parse_chunk(chunks[0]), 1, start);
   assembler.add(1, "", *parse_chunk(chunks[1]), 1, start + from_seconds(2.0));
   assembler.expire(start + from_seconds(4.0));

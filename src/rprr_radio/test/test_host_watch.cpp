@@ -31,7 +31,7 @@ struct Watched {
       if (talks(t)) heard = t;
       const bool answered = t >= answer_at;
       if (answered) answer_at = std::numeric_limits<double>::infinity();
-      const Step step = watch.step(t - heard, answered, from_seconds(100.0 + t));
+      const Step step = watch.step(t - heard, answered, steady_seconds(100.0 + t));
       if (step == Step::kProbe) {
         probes.push_back(t);
         if (reachable(t)) answer_at = std::min(answer_at, t + answer_seconds);
@@ -115,9 +115,9 @@ TEST(HostWatch, ANarrowRadioIsNotTakenForASilentOne) {
 TEST(HostWatch, SaysForHowLongNothingWasAnswered) {
   Watched host{except(10.0, 1000.0), except(10.0, 1000.0)};
   host.run(11.0);
-  EXPECT_EQ(host.watch.unanswered_for(from_seconds(111.0)), 0.0);
+  EXPECT_EQ(host.watch.unanswered_for(steady_seconds(111.0)), 0.0);
   host.run(30.0);
-  EXPECT_GT(host.watch.unanswered_for(from_seconds(130.0)), 15.0);
+  EXPECT_GT(host.watch.unanswered_for(steady_seconds(130.0)), 15.0);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void rest() {
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
 }
 
-bool answered_soon(Probe& probe, Stamp now) {
+bool answered_soon(Probe& probe, SteadyTime now) {
   for (int i = 0; i < 50; ++i) {
     if (probe.was_answered(now)) return true;
     rest();
@@ -92,7 +92,7 @@ TEST(PeersOfThisProcess, ProbesDoNotCount) {
   Loopback loopback;
   loopback.listen_there();
   Probe probe;
-  probe.send(loopback.address(), 0);
+  probe.send(loopback.address(), {});
   rest();
   EXPECT_EQ(peers_of_this_process().count("127.0.0.1"), 1U);
   std::set<int> probes;
@@ -105,17 +105,17 @@ TEST(Probe, IsAnsweredByAListener) {
   Loopback loopback;
   loopback.listen_there();
   Probe probe;
-  EXPECT_FALSE(probe.was_answered(0));
-  probe.send(loopback.address(), 0);
-  EXPECT_TRUE(answered_soon(probe, 0));
-  EXPECT_FALSE(probe.was_answered(0)) << "an answer counts once";
+  EXPECT_FALSE(probe.was_answered({}));
+  probe.send(loopback.address(), {});
+  EXPECT_TRUE(answered_soon(probe, {}));
+  EXPECT_FALSE(probe.was_answered({})) << "an answer counts once";
 }
 
 TEST(Probe, IsAnsweredByARefusal) {
   const Loopback loopback;  // bound, but nobody listens
   Probe probe;
-  probe.send(loopback.address(), 0);
-  EXPECT_TRUE(answered_soon(probe, 0));
+  probe.send(loopback.address(), {});
+  EXPECT_TRUE(answered_soon(probe, {}));
 }
 
 TEST(Probe, NoAnswerIsNone) {
@@ -123,13 +123,13 @@ TEST(Probe, NoAnswerIsNone) {
   Loopback loopback;
   loopback.listen_there(0);
   Probe earlier;
-  for (int i = 0; i < 4; ++i) earlier.send(loopback.address(), 0);
+  for (int i = 0; i < 4; ++i) earlier.send(loopback.address(), {});
   rest();
   Probe probe;
-  probe.send(loopback.address(), 0);
+  probe.send(loopback.address(), {});
   rest();
-  EXPECT_FALSE(probe.was_answered(from_seconds(0.1)));
-  EXPECT_FALSE(probe.was_answered(from_seconds(10.0)));
+  EXPECT_FALSE(probe.was_answered(steady_seconds(0.1)));
+  EXPECT_FALSE(probe.was_answered(steady_seconds(10.0)));
 }
 
 }  // namespace

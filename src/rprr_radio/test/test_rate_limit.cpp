@@ -11,7 +11,7 @@ namespace rprr {
 namespace {
 
 constexpr double kRate = 10000.0;
-constexpr Stamp kStart = from_seconds(1000.0);
+constexpr SteadyTime kStart = steady_seconds(1000.0);
 
 TEST(RateLimit, ABurstIsThereAtOnceAndNoMore) {
   RateLimit limit(kRate);
@@ -25,7 +25,7 @@ TEST(RateLimit, ABurstIsThereAtOnceAndNoMore) {
 TEST(RateLimit, ThereIsRoomWhenItSaysSoAndNotBefore) {
   RateLimit limit(kRate);
   limit.spend(5000, kStart);
-  const Stamp at = limit.room_at(1000, kStart);
+  const SteadyTime at = limit.room_at(1000, kStart);
   EXPECT_GT(at, kStart);
   EXPECT_FALSE(limit.has_room(1000, at - from_seconds(0.001)));
   EXPECT_TRUE(limit.has_room(1000, at));
@@ -41,10 +41,10 @@ TEST(RateLimit, AClockThatGoesBackDoesNoHarm) {
 TEST(RateLimit, NoTwoSecondsTakeMoreThanTheirShareHoweverItIsAsked) {
   std::mt19937 random(7);
   RateLimit limit(kRate);
-  std::deque<std::pair<Stamp, std::size_t>> window;
+  std::deque<std::pair<SteadyTime, std::size_t>> window;
   std::size_t in_window = 0;
   std::size_t total = 0;
-  Stamp now = kStart;
+  SteadyTime now = kStart;
   for (int i = 0; i < 20000; ++i) {
     now += from_seconds(std::uniform_real_distribution<>(0.0, 0.02)(random));
     if (random() % 500 == 0) now += from_seconds(1.5);

@@ -16,7 +16,7 @@
 namespace rprr {
 namespace {
 
-constexpr Stamp kStart = from_seconds(5000.0);
+constexpr SteadyTime kStart = steady_seconds(5000.0);
 constexpr Duration kMillisecond = from_seconds(0.001);
 
 SendQueueOptions options_of(double bandwidth) {
@@ -42,7 +42,7 @@ QueuedFrame sparse(Stamp stamp, Stamp reference_stamp) {
 }
 
 // Encodes what is due to so many bytes, and sends it.
-std::vector<SendOrder> pump(SendQueue& queue, Stamp now, std::size_t bytes = 100) {
+std::vector<SendOrder> pump(SendQueue& queue, SteadyTime now, std::size_t bytes = 100) {
   std::vector<SendOrder> sent;
   for (;;) {
     if (const auto order = queue.next_to_encode(now)) {
@@ -79,11 +79,11 @@ TEST(SendQueue, AnyTwoSecondsKeepToTheBandwidthAndUseIt) {
   constexpr double kBandwidth = 25000.0;
   std::mt19937 random(3);
   SendQueue queue(options_of(kBandwidth));
-  std::deque<std::pair<Stamp, double>> window;
+  std::deque<std::pair<SteadyTime, double>> window;
   double in_window = 0.0;
   double total = 0.0;
   Stamp stamp = 1;
-  const auto count = [&](Stamp now, double bytes) {
+  const auto count = [&](SteadyTime now, double bytes) {
     window.emplace_back(now, bytes);
     in_window += bytes;
     total += bytes;
@@ -93,7 +93,7 @@ TEST(SendQueue, AnyTwoSecondsKeepToTheBandwidthAndUseIt) {
     }
     ASSERT_LE(in_window, 2.0 * kBandwidth) << to_seconds(now - kStart) << " s";
   };
-  Stamp now = kStart;
+  SteadyTime now = kStart;
   for (; now < kStart + from_seconds(60.0); now += 3 * kMillisecond) {
     if (queue.room(now).ready) {  // as the exchange does: a preview, then the frame
       queue.spent(2300, now);
@@ -119,7 +119,7 @@ TEST(SendQueue, ALimitedFrameComesInChunksThatMakeItAgain) {
   queue.encoded(*order, data, kStart);
   FrameAssembler assembler;
   std::optional<FrameAssembler::Frame> frame;
-  for (Stamp now = kStart; now < kStart + from_seconds(2.0) && !frame; now += kMillisecond) {
+  for (SteadyTime now = kStart; now < kStart + from_seconds(2.0) && !frame; now += kMillisecond) {
     while (const auto message = queue.next_to_send(now)) {
       ASSERT_TRUE(is_chunk(message->data));
       const Result<FrameChunk> chunk = parse_chunk(message->data);
@@ -144,7 +144,7 @@ TEST(SendQueue, WithALimitOnlyTheNewestWaitsAndIsEncodedLate) {
   EXPECT_FALSE(queue.next_to_encode(kStart)) << "the radio is busy";
   EXPECT_FALSE(queue.room(kStart).ready);
   EXPECT_NEAR(queue.backlog(kStart), 30000.0 / 18000.0, 0.3);
-  Stamp now = kStart;
+  SteadyTime now = kStart;
   std::vector<SendOrder> sent;
   while (queue.waiting() > 0 && now < kStart + from_seconds(5.0)) {
     now += 10 * kMillisecond;
@@ -157,7 +157,7 @@ TEST(SendQueue, WholeAndSparseFramesTakeTurns) {
   SendQueue queue(options_of(20000.0));
   std::vector<Stamp> encoded;
   Stamp stamp = 1;
-  for (Stamp now = kStart; now < kStart + from_seconds(10.0); now += 10 * kMillisecond) {
+  for (SteadyTime now = kStart; now < kStart + from_seconds(10.0); now += 10 * kMillisecond) {
     queue.offer(whole(2 * stamp), now);
     queue.offer(sparse(2 * stamp + 1, 1), now);
     ++stamp;
@@ -180,7 +180,7 @@ TEST(SendQueue, TheLimitOfAFrameLeavesRoomForTheExchange) {
   SendQueue queue(options);
   std::size_t limit = 0;
   for (int i = 0; i < 30; ++i) {
-    const Stamp now = kStart + i * from_seconds(2.0);
+    const SteadyTime now = kStart + i * from_seconds(2.0);
     queue.spent(2300, now);
     queue.offer(whole(i + 1), now);
     const auto order = queue.next_to_encode(now + from_seconds(1.0));
@@ -250,7 +250,7 @@ TEST(SendQueue, BeginsNothingWhileFramesAreOnTheirWayUnacknowledged) {
   queue.offer(whole(1), kStart);
   pump(queue, kStart);
   EXPECT_FALSE(queue.room(kStart).ready) << "one at a time until the radio is known";
-  Stamp now = kStart + 10 * kMillisecond;
+  SteadyTime now = kStart + 10 * kMillisecond;
   queue.receipt("b", {1}, {}, 1, now);
   EXPECT_EQ(queue.room(now).references, std::vector<Stamp>{1});
   for (Stamp stamp = 2; stamp <= 4; ++stamp) {
@@ -269,14 +269,14 @@ TEST(SendQueue, LostFramesDoNotBlockTheRadioForGood) {
   SendQueue queue(options_of(0.0));
   for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
   pump(queue, kStart);
-  const Stamp later = kStart + from_seconds(4.5);
+  const SteadyTime later = kStart + from_seconds(4.5);
   queue.receipt("b", {}, {}, 0, later - kMillisecond);
   EXPECT_TRUE(queue.room(later).ready);
 }
 
 TEST(SendQueue, ALostFrameDoesNotMakeTheRadioSeemNarrow) {
   SendQueue queue(options_of(0.0));
-  Stamp now = kStart;
+  SteadyTime now = kStart;
   const auto send = [&](Stamp stamp, bool is_lost) {
     queue.receipt("b", {}, {}, 0, now);
     queue.offer(whole(stamp), now);
@@ -306,17 +306,17 @@ TEST(SendQueue, ANewListenerIsNotWaitedForInVain) {
 // A radio of so many bytes a second, whose receipts come as soon as a frame is through.
 struct SlowRadio {
   double bytes_per_second;
-  std::deque<std::pair<Stamp, Stamp>> arrivals;  // stamp of a frame, and when it is through
-  Stamp free_at = 0;
+  std::deque<std::pair<Stamp, SteadyTime>> arrivals;  // stamp of a frame, and when it is through
+  SteadyTime free_at;
   std::size_t most_under_way = 0;
 
-  void take(const SendOrder& order, Stamp now) {
+  void take(const SendOrder& order, SteadyTime now) {
     free_at = std::max(free_at, now) +
               from_seconds(static_cast<double>(order.data.size()) / bytes_per_second);
     arrivals.emplace_back(order.stamp, free_at);
     most_under_way = std::max(most_under_way, arrivals.size());
   }
-  void deliver(SendQueue& queue, Stamp now) {
+  void deliver(SendQueue& queue, SteadyTime now) {
     while (!arrivals.empty() && arrivals.front().second <= now) {
       queue.receipt("b", {arrivals.front().first}, {}, arrivals.front().first, now);
       arrivals.pop_front();
@@ -329,11 +329,11 @@ TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
   options.frame_rate = 2.0;
   SendQueue queue(options);
   queue.receipt("b", {}, {}, 0, kStart);
-  SlowRadio radio{20000.0, {}, 0, 0};
+  SlowRadio radio{20000.0, {}, {}, 0};
   Stamp stamp = 1;
-  Stamp late = 0;
+  Duration late = 0;
   int delivered = 0;
-  for (Stamp now = kStart; now < kStart + from_seconds(60.0); now += 10 * kMillisecond) {
+  for (SteadyTime now = kStart; now < kStart + from_seconds(60.0); now += 10 * kMillisecond) {
     radio.deliver(queue, now);
     if (queue.room(now).ready) queue.offer(whole(stamp++), now);
     while (const auto order = queue.next_to_encode(now)) {
@@ -357,7 +357,7 @@ TEST(SendQueue, WhileTheRadioIsDownNextToNothingIsHandedOver) {
   queue.receipt("b", {}, {}, 0, kStart);
   std::size_t sent = 0;
   Stamp stamp = 1;
-  for (Stamp now = kStart; now < kStart + from_seconds(20.0); now += 100 * kMillisecond) {
+  for (SteadyTime now = kStart; now < kStart + from_seconds(20.0); now += 100 * kMillisecond) {
     queue.offer(whole(stamp++), now);
     sent += pump(queue, now).size();
   }
@@ -368,7 +368,7 @@ TEST(SendQueue, WhileTheRadioIsDownNextToNothingIsHandedOver) {
 
 TEST(SendQueue, LearnsHowLongReceiptsOfReferencesTake) {
   SendQueue queue(options_of(0.0));
-  Stamp now = kStart;
+  SteadyTime now = kStart;
   int whole_frames = 0;
   for (Stamp stamp = 1; stamp <= 5; ++stamp) {  // each reference takes four seconds
     queue.receipt("a", {stamp - 1}, {}, stamp - 1, now);
@@ -397,7 +397,7 @@ TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
   options.receipt_timeout = 0;
   SendQueue queue(options);
   for (Stamp stamp = 1; stamp <= 20; ++stamp) {
-    const Stamp now = kStart + from_seconds(2.0 * static_cast<double>(stamp));
+    const SteadyTime now = kStart + from_seconds(2.0 * static_cast<double>(stamp));
     queue.offer(whole(stamp), now);
     queue.offer(sparse(100 + stamp, 7), now);
     const auto sent = pump(queue, now, 40000);

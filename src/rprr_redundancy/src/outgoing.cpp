@@ -26,7 +26,7 @@ std::vector<OutgoingDecision> Outgoing::whole(Stamp stamp, std::uint32_t exchang
 
 std::vector<OutgoingDecision> Outgoing::accepted(Stamp stamp, const std::string& peer,
                                                  std::uint32_t exchange, BlockMask validated,
-                                                 Stamp now) {
+                                                 SteadyTime now) {
   if (decided_.contains(stamp) || waits(stamp)) return {};
   Waiting frame{stamp, peer, exchange, std::move(validated), now + options_.prediction_timeout};
   const auto early = std::find_if(early_.begin(), early_.end(), [&](const Early& prediction) {
@@ -47,7 +47,8 @@ std::vector<OutgoingDecision> Outgoing::accepted(Stamp stamp, const std::string&
   return decisions;
 }
 
-std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& message, Stamp now) {
+std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& message,
+                                                   SteadyTime now) {
   if (message.receiver != robot_ || decided_.contains(message.stamp)) return {};
   const bool too_long = message.mask.size > options_.largest_mask;
   Early prediction{
@@ -80,7 +81,7 @@ std::vector<OutgoingDecision> Outgoing::prediction(const PredictionMessage& mess
   return {};
 }
 
-std::vector<OutgoingDecision> Outgoing::tick(Stamp now) {
+std::vector<OutgoingDecision> Outgoing::tick(SteadyTime now) {
   std::vector<OutgoingDecision> decisions;
   while (!waiting_.empty() && waiting_.front().deadline <= now) {
     decisions.push_back(give_up(waiting_.front(), "the prediction did not come in time"));

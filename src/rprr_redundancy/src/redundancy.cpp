@@ -30,7 +30,7 @@ Redundancy::Redundancy(std::string robot, const RedundancyOptions& options)
       outgoing_(robot_, options.outgoing) {
 }
 
-void Redundancy::take(const FrameDecision& decision, Stamp now, RedundancyOutput& out) {
+void Redundancy::take(const FrameDecision& decision, SteadyTime now, RedundancyOutput& out) {
   if (!decision.frame) {
     out.problems.push_back("a decision without a frame: " + decision.reason);
     return;
@@ -52,11 +52,11 @@ void Redundancy::take(const FrameDecision& decision, Stamp now, RedundancyOutput
   }
 }
 
-void Redundancy::receive(const PredictionMessage& message, Stamp now, RedundancyOutput& out) {
+void Redundancy::receive(const PredictionMessage& message, SteadyTime now, RedundancyOutput& out) {
   emit(outgoing_.prediction(message, now), out);
 }
 
-void Redundancy::tick(Stamp now, RedundancyOutput& out) {
+void Redundancy::tick(SteadyTime now, RedundancyOutput& out) {
   emit(outgoing_.tick(now), out);
 }
 
@@ -97,7 +97,7 @@ void Redundancy::send_reference(const FrameDecision& decision, RedundancyOutput&
 }
 
 // This robot is the dependent: B_v is computed while the reference still computes what it asks for.
-void Redundancy::decide(const FrameDecision& decision, Stamp now, RedundancyOutput& out) {
+void Redundancy::decide(const FrameDecision& decision, SteadyTime now, RedundancyOutput& out) {
   const RgbdFrame& frame = *decision.frame;
   if (whole_.contains(frame.stamp)) return;
   Held held{decision, 0.0f};

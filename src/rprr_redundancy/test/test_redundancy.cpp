@@ -69,7 +69,7 @@ class RedundancyTest : public testing::Test {
     mask.set(17);
     return mask;
   }();
-  Stamp now = 0;
+  SteadyTime now;
   Redundancy stage{"b"};
   RedundancyOutput out;
 };
@@ -156,9 +156,9 @@ TEST_F(RedundancyTest, PredictionsOfOtherPeersAreNotTaken) {
 
 TEST_F(RedundancyTest, WithoutAPredictionTheFrameGoesOutWhole) {
   stage.take(decision(Action::kSendSparse, 100, "a"), now, out);
-  stage.tick(from_seconds(0.9), out);
+  stage.tick(steady_seconds(0.9), out);
   EXPECT_TRUE(out.frames.empty());
-  stage.tick(from_seconds(1.1), out);
+  stage.tick(steady_seconds(1.1), out);
   ASSERT_EQ(out.frames.size(), 1u);
   EXPECT_FALSE(out.frames[0].sparse);
   EXPECT_FALSE(out.frames[0].reason.empty());

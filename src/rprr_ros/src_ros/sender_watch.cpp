@@ -12,10 +12,11 @@ constexpr std::size_t kMostPublishers = 8;
 
 }  // namespace
 
-std::string SenderWatch::note(const std::string& topic, const std::string& publisher, Stamp now) {
+std::string SenderWatch::note(const std::string& topic, const std::string& publisher,
+                              SteadyTime now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (seen_.size() >= kMostTopics && seen_.count(topic) == 0) return {};
-  std::map<std::string, Stamp>& publishers = seen_[topic];
+  std::map<std::string, SteadyTime>& publishers = seen_[topic];
   for (auto other = publishers.begin(); other != publishers.end();) {
     other = now - other->second > kRecent ? publishers.erase(other) : std::next(other);
   }
@@ -24,7 +25,7 @@ std::string SenderWatch::note(const std::string& topic, const std::string& publi
   }
   if (publishers.size() < 2) return {};
   std::string text = "messages of this robot come from more than one node (";
-  for (const auto& [name, stamp] : publishers) {
+  for (const auto& [name, heard] : publishers) {
     text += (name == publishers.begin()->first ? "" : ", ") + name;
   }
   return text + "): give every robot a name of its own, and look who else publishes here";

@@ -6,7 +6,7 @@
 namespace rprr {
 namespace {
 
-constexpr Stamp kStart = from_seconds(10.0);
+constexpr SteadyTime kStart = steady_seconds(10.0);
 
 TEST(SenderWatch, OneSenderATopicIsFine) {
   SenderWatch watch;

@@ -12,7 +12,7 @@ constexpr Duration kPeriod = from_seconds(1.0 / 30.0);
 
 /// What the fake camera does; shared between test, driver and device.
 struct World {
-  Stamp now = from_seconds(1000.0);
+  SteadyTime now = steady_seconds(1000.0);
   bool plugged = true;
   bool colour = true;
   bool depth = true;
@@ -57,7 +57,7 @@ class FakeDevice : public RgbdDevice {
 
  private:
   World& world_;
-  Stamp began_;
+  SteadyTime began_;
   int count_ = 0;
   std::string serial_ = "A1";
 };
@@ -81,14 +81,15 @@ class FakeDriver : public RgbdDriver {
 class DeviceSessionTest : public testing::Test {
  protected:
   DeviceSession make(const SessionOptions& options = {}) {
-    return DeviceSession(std::make_unique<FakeDriver>(world_), options,
-                         {[this] { return world_.now; }, [this] { return world_.now; }});
+    return DeviceSession(
+        std::make_unique<FakeDriver>(world_), options,
+        {[this] { return world_.now; }, [this] { return world_.now.since_start(); }});
   }
   /// Lets it run; idle time passes.
   void run(DeviceSession& session, double seconds) {
     pairs_ = 0;
     notices_.clear();
-    const Stamp end = world_.now + from_seconds(seconds);
+    const SteadyTime end = world_.now + from_seconds(seconds);
     while (world_.now < end) {
       const SessionStep step = session.step();
       pairs_ += step.pair ? 1 : 0;

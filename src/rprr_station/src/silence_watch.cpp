@@ -12,7 +12,7 @@ constexpr double kSmoothing = 0.3;
 
 }  // namespace
 
-void SilenceWatch::heard(const std::string& robot, Stamp now) {
+void SilenceWatch::heard(const std::string& robot, SteadyTime now) {
   const auto known = robots_.find(robot);
   if (known == robots_.end()) {
     robots_[robot] = {now, 0.0};
@@ -27,7 +27,7 @@ void SilenceWatch::heard(const std::string& robot, Stamp now) {
   watched.last = now;
 }
 
-std::optional<double> SilenceWatch::silent_for(const std::string& robot, Stamp now) const {
+std::optional<double> SilenceWatch::silent_for(const std::string& robot, SteadyTime now) const {
   const auto known = robots_.find(robot);
   if (known == robots_.end()) return {};
   const double seconds = to_seconds(now - known->second.last);

@@ -59,7 +59,7 @@ Station::Station(StationOptions options, std::unique_ptr<ColourDecoder> colour)
   }
 }
 
-StationOutput Station::receive(const ReceivedMessage& message, Stamp now) {
+StationOutput Station::receive(const ReceivedMessage& message, SteadyTime now) {
   StationOutput output = tick(now);
   if (is_chunk(message.data)) {
     receive_chunk(message, now, output);
@@ -69,7 +69,7 @@ StationOutput Station::receive(const ReceivedMessage& message, Stamp now) {
   return output;
 }
 
-void Station::receive_chunk(const ReceivedMessage& message, Stamp now, StationOutput& output) {
+void Station::receive_chunk(const ReceivedMessage& message, SteadyTime now, StationOutput& output) {
   const auto robot = robots_.find(message.robot);
   const Result<FrameChunk> chunk =
       robot == robots_.end()
@@ -97,7 +97,7 @@ void Station::report_incomplete(const std::string& name, Robot& robot, StationOu
   output.errors.push_back({name, robot.last, "parts of a frame did not come"});
 }
 
-void Station::receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output) {
+void Station::receive_frame(const ReceivedMessage& message, SteadyTime now, StationOutput& output) {
   RebuiltFrame frame;
   Result<EncodedFrame> encoded = parse(message, frame);
   if (!encoded) {
@@ -117,7 +117,7 @@ void Station::receive_frame(const ReceivedMessage& message, Stamp now, StationOu
   }
 }
 
-StationOutput Station::tick(Stamp now) {
+StationOutput Station::tick(SteadyTime now) {
   StationOutput output;
   for (auto& [name, robot] : robots_) {
     robot.chunks.expire(now);
@@ -128,8 +128,8 @@ StationOutput Station::tick(Stamp now) {
       waiting.pop_front();
     }
     for (Waiting& frame : waiting) {
-      if (frame.ask_at == 0 || now < frame.ask_at) continue;
-      frame.ask_at = 0;
+      if (!frame.ask_at || now < *frame.ask_at) continue;
+      frame.ask_at.reset();
       output.repeats.push_back({frame.encoded.reference, frame.encoded.reference_stamp});
     }
   }
@@ -284,9 +284,10 @@ void Station::rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded,
   output.frames.push_back(std::move(frame));
 }
 
-void Station::wait(RebuiltFrame frame, EncodedFrame encoded, Stamp now, StationOutput& output) {
+void Station::wait(RebuiltFrame frame, EncodedFrame encoded, SteadyTime now,
+                   StationOutput& output) {
   if (options_.waiting == 0) {
-    return give_up({std::move(frame), std::move(encoded), now, 0}, "its reference is not held",
+    return give_up({std::move(frame), std::move(encoded), now, {}}, "its reference is not held",
                    output);
   }
   auto& waiting = robots_[frame.robot].waiting;

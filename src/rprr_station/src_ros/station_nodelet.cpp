@@ -24,6 +24,7 @@
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
 #include "rprr_ros/sender_watch.hpp"
+#include "rprr_ros/steady_now.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_station/scene_cloud.hpp"
 #include "rprr_station/silence_watch.hpp"
@@ -106,11 +107,9 @@ class StationNodelet : public nodelet::Nodelet {
     robot.provenance = nh.advertise<sensor_msgs::Image>(prefix + "provenance", 4);
   }
 
-  static Stamp now() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
-
   void on_encoded(const std::string& name,
                   const ros::MessageEvent<rprr_msgs::EncodedFrame const>& event) {
-    const std::string stranger = senders_.note(name, event.getPublisherName(), now());
+    const std::string stranger = senders_.note(name, event.getPublisherName(), steady_now());
     if (!stranger.empty())
       health_->warn("two senders " + name, "/" + name + "/rprr/encoded: " + stranger);
     enqueue(name, event.getConstMessage());
@@ -154,7 +153,7 @@ class StationNodelet : public nodelet::Nodelet {
         const std::lock_guard<std::mutex> lock(mutex_);
         tick_posted_ = false;
       }
-      publish(station_->tick(now()));
+      publish(station_->tick(steady_now()));
       if (++ticks_ % kTicksOfReceipts == 0) {
         for (const auto& [name, robot] : robots_) publish_receipt(name, {});
         watch_silence();
@@ -180,9 +179,9 @@ class StationNodelet : public nodelet::Nodelet {
     received.exchange = message->exchange;
     received.data = ByteView(message->data);
     const Stamp last = station_->last(name);
-    const StationOutput output = station_->receive(received, now());
+    const StationOutput output = station_->receive(received, steady_now());
     if (station_->last(name) != last) {
-      silence_.heard(name, now());
+      silence_.heard(name, steady_now());
       publish_receipt(name, {});
     }
     publish(output);
@@ -190,7 +189,7 @@ class StationNodelet : public nodelet::Nodelet {
 
   void watch_silence() {
     for (const auto& [name, robot] : robots_) {
-      const auto seconds = silence_.silent_for(name, now());
+      const auto seconds = silence_.silent_for(name, steady_now());
       if (!seconds) continue;
       health_->warn("silent " + name, "no frame of '" + name + "' for " +
                                           std::to_string(std::lround(*seconds)) +
@@ -258,8 +257,8 @@ class StationNodelet : public nodelet::Nodelet {
       cloud_->clear();
       return;
     }
-    if (!cloud_->add(frame) || now() < next_scene_) return;
-    next_scene_ = now() + parameters_.output.cloud_period;
+    if (!cloud_->add(frame) || steady_now() < next_scene_) return;
+    next_scene_ = steady_now() + parameters_.output.cloud_period;
     cloud_->make(scene_);
     points_.publish(boost::make_shared<sensor_msgs::PointCloud2>(scene_message(scene_)));
   }
@@ -290,7 +289,7 @@ class StationNodelet : public nodelet::Nodelet {
   std::unique_ptr<SceneCloud> cloud_;
   Scene scene_;
   SilenceWatch silence_;
-  Stamp next_scene_ = 0;
+  SteadyTime next_scene_;
   std::map<std::string, Robot> robots_;
   std::unique_ptr<Worker> worker_;
   ros::WallTimer timer_;

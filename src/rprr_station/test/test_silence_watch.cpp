@@ -6,8 +6,8 @@
 namespace rprr {
 namespace {
 
-Stamp at(double seconds) {
-  return from_seconds(seconds);
+SteadyTime at(double seconds) {
+  return steady_seconds(seconds);
 }
 
 TEST(SilenceWatch, WhoNeverSpokeIsNotMissed) {

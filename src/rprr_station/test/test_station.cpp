@@ -89,11 +89,12 @@ class StationTest : public testing::Test {
     options.largest_image = 200 * 200;
     return options;
   }
-  StationOutput receive(const std::string& robot, Stamp stamp, const Bytes& bytes, Stamp now = 0) {
+  StationOutput receive(const std::string& robot, Stamp stamp, const Bytes& bytes,
+                        SteadyTime now = {}) {
     return station.receive({robot, stamp, robot + "_frame", 3, bytes}, now);
   }
   StationOutput receive(const std::string& robot, Stamp stamp, const EncodedFrame& frame,
-                        Stamp now = 0) {
+                        SteadyTime now = {}) {
     return receive(robot, stamp, serialise(frame), now);
   }
   void expect_refused(const StationOutput& output) {
@@ -215,7 +216,7 @@ TEST_F(StationTest, AFrameMayComeInChunksInAnyOrder) {
     const Bytes chunk = serialise(FrameChunk{7, i, count, rest.first(std::min(rest.size, kPiece))});
     ReceivedMessage message{"a", 100, i == 0 ? "camera" : "", 3, chunk, 0};
     message_bytes += encoded_message_bytes(message.frame_id.size(), chunk.size());
-    const StationOutput output = station.receive(message, 0);
+    const StationOutput output = station.receive(message, {});
     EXPECT_TRUE(output.errors.empty());
     EXPECT_EQ(station.last("a"), i == 0 ? 100 : 0);
     ASSERT_EQ(output.frames.size(), i == 0 ? 1u : 0u);
@@ -234,28 +235,28 @@ TEST_F(StationTest, LostChunksAreReportedAndCostTheirFrameAlone) {
   std::size_t errors = 0;
   for (std::uint16_t number = 1; number <= 10; ++number) {
     const Bytes chunk = serialise(FrameChunk{number, 0, 2, ByteView(bytes).first(100)});
-    errors += station.receive({"a", number, "camera", 3, chunk, 0}, 0).errors.size();
+    errors += station.receive({"a", number, "camera", 3, chunk, 0}, {}).errors.size();
   }
   EXPECT_EQ(errors, 7u) << "a few may still be completed";
   EXPECT_EQ(receive("a", 100, whole_frame()).frames.size(), 1u);
 }
 
 TEST_F(StationTest, AReferenceThatIsLateIsAskedForOnceMeanwhile) {
-  receive("b", 200, sparse_frame(100), 0);
-  EXPECT_TRUE(station.tick(kPatience / 8).repeats.empty()) << "it may be under way";
-  const StationOutput output = station.tick(kPatience / 2);
+  receive("b", 200, sparse_frame(100));
+  EXPECT_TRUE(station.tick(SteadyTime(kPatience / 8)).repeats.empty()) << "it may be under way";
+  const StationOutput output = station.tick(SteadyTime(kPatience / 2));
   EXPECT_TRUE(output.errors.empty());
   ASSERT_EQ(output.repeats.size(), 1u);
   EXPECT_EQ(output.repeats[0].robot, "a");
   EXPECT_EQ(output.repeats[0].stamp, 100);
-  EXPECT_TRUE(station.tick(kPatience / 2 + 1).repeats.empty());
+  EXPECT_TRUE(station.tick(SteadyTime(kPatience / 2 + 1)).repeats.empty());
   EXPECT_EQ(receive("a", 100, whole_frame()).frames.size(), 2u) << "and then both come out";
 }
 
 TEST_F(StationTest, MissingReferenceIsGivenUpAndAskedFor) {
-  receive("b", 200, sparse_frame(100), 0);
-  EXPECT_TRUE(station.tick(kPatience - 1).errors.empty());
-  const StationOutput output = station.tick(kPatience);
+  receive("b", 200, sparse_frame(100));
+  EXPECT_TRUE(station.tick(SteadyTime(kPatience - 1)).errors.empty());
+  const StationOutput output = station.tick(SteadyTime(kPatience));
   ASSERT_EQ(output.errors.size(), 1u);
   EXPECT_EQ(output.errors[0].robot, "b");
   EXPECT_EQ(output.errors[0].stamp, 200);
@@ -326,7 +327,7 @@ TEST_F(StationTest, ChangedBytesWithAValidChecksumAreSurvived) {
     bytes[random() % std::min<std::size_t>(bytes.size(), 900)] ^=
         static_cast<std::uint8_t>(1 + random() % 255);
     seal(bytes);
-    const StationOutput output = receive("b", 300 + trial, bytes, trial * kPatience);
+    const StationOutput output = receive("b", 300 + trial, bytes, SteadyTime(trial * kPatience));
     for (const RebuiltFrame& frame : output.frames) {
       EXPECT_EQ(frame.bgr.size(), cv::Size(frame.camera.width, frame.camera.height));
       EXPECT_EQ(frame.depth.counts.size(), frame.bgr.size());

@@ -50,7 +50,7 @@ ExchangeOutcome ExchangeHarness::run(const RgbdFramePtr& a, const RgbdFramePtr& 
   ExchangeOutcome outcome;
   channel_.clear();
   decided_ = false;
-  const Stamp start = now_;
+  const SteadyTime start = now_;
   act(false, outcome, [&](ExchangeRole& role, RoleOutput& out) { role.offer(b, now_, out); });
   act(true, outcome, [&](ExchangeRole& role, RoleOutput& out) { role.offer(a, now_, out); });
   while (!decided_ && now_ - start < kPatience) {

@@ -13,7 +13,7 @@ void FaultChannel::set(const Faults& faults) {
   under_way_.clear();
 }
 
-void FaultChannel::add(ChannelMessage message, Stamp now) {
+void FaultChannel::add(ChannelMessage message, SteadyTime now) {
   ++counts_.came;
   // All are drawn for every message, so that one fault does not shift the others' sequence.
   const bool lost = happens(faults_.lose);
@@ -24,7 +24,7 @@ void FaultChannel::add(ChannelMessage message, Stamp now) {
     ++counts_.lost;
     return;
   }
-  const Stamp arrival = now + faults_.delay;
+  const SteadyTime arrival = now + faults_.delay;
   if (twice) {
     ++counts_.duplicated;
     under_way_.emplace(arrival + faults_.late, message.bytes);
@@ -37,7 +37,7 @@ void FaultChannel::add(ChannelMessage message, Stamp now) {
   under_way_.emplace(late ? arrival + faults_.late : arrival, std::move(message.bytes));
 }
 
-std::vector<Bytes> FaultChannel::due(Stamp now) {
+std::vector<Bytes> FaultChannel::due(SteadyTime now) {
   std::vector<Bytes> messages;
   const auto end = under_way_.upper_bound(now);
   for (auto message = under_way_.begin(); message != end; ++message) {

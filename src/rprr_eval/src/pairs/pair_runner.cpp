@@ -66,7 +66,7 @@ struct PairRunner::Robots {
   FrameEncoder encoder;  // both robots code alike
   FrameDecoder independent_decoder;
   Station station;
-  Stamp now = from_seconds(1000.0);
+  SteadyTime now = steady_seconds(1000.0);
 };
 
 namespace {
@@ -76,7 +76,7 @@ struct OutgoingFrames {
   std::vector<OutgoingFrame> of_a, of_b;
 };
 
-OutgoingFrames decide(PairResult& result, Redundancy& a, Redundancy& b, Stamp now) {
+OutgoingFrames decide(PairResult& result, Redundancy& a, Redundancy& b, SteadyTime now) {
   RedundancyOutput at_a, at_b;
   for (const FrameDecision& decision : result.exchange.at_reference) a.take(decision, now, at_a);
   b.take(result.exchange.at_dependent, now, at_b);
@@ -90,7 +90,7 @@ OutgoingFrames decide(PairResult& result, Redundancy& a, Redundancy& b, Stamp no
 
 Result<RebuiltFrame> send(const EncodedFrame& encoded, const RgbdFrame& frame,
                           const std::string& robot, std::uint32_t exchange, Station& station,
-                          Stamp now) {
+                          SteadyTime now) {
   const Bytes bytes = serialise(encoded);
   StationOutput output =
       station.receive({robot, frame.stamp, frame.frame_id, exchange, bytes}, now);
@@ -164,8 +164,9 @@ Result<PreparedPair> PairRunner::prepare(const TumFolder& folder, std::size_t a,
   if (!image_b) return Error{image_b.reason()};
   const Camera camera = rounded_for_wire(folder.camera);
   PreparedPair pair;
-  pair.a = frame_of(*image_a, camera, robots.now, kFrameA);
-  pair.b = frame_of(*image_b, camera, robots.now, kFrameB);
+  const Stamp stamp = robots.now.since_start();  // a sensor clock that began with the steady one
+  pair.a = frame_of(*image_a, camera, stamp, kFrameA);
+  pair.b = frame_of(*image_b, camera, stamp, kFrameB);
   pair.result.a = a;
   pair.result.b = b;
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -22,17 +22,17 @@ class ClockOffset {
   /// there: by the peer's clock, the time between the question left (this robot's clock) and came;
   /// back: likewise of the answer, the other way round. Seconds. Untrusted: what makes no sense is
   /// ignored.
-  void add(double there, double back, Stamp now);
-  std::optional<Estimate> estimate(Stamp now);
+  void add(double there, double back, SteadyTime now);
+  std::optional<Estimate> estimate(SteadyTime now);
 
  private:
   struct Sample {
     double there;
     double back;
-    Stamp at;
+    SteadyTime at;
   };
   static bool contradict(const Sample& one, const Sample& other);
-  void forget_old(Stamp now);
+  void forget_old(SteadyTime now);
 
   std::deque<Sample> samples_;
 };

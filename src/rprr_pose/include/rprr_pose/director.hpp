@@ -31,11 +31,11 @@ class Director final : public ExchangeRole {
   /// Only previews of robots added here are answered.
   void add_dependent(const std::string& robot) { dependents_[robot]; }
 
-  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override;
-  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override;
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override;
-  void tick(Stamp now, RoleOutput& out) override;
-  void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override;
+  void tick(SteadyTime now, RoleOutput& out) override;
+  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override;
 
  private:
   /// What the director knows of one robot that asks it.
@@ -44,7 +44,7 @@ class Director final : public ExchangeRole {
     std::optional<KnownPose> last_accepted;
     bool last_is_fresh = false;           // the last exchange was accepted
     std::optional<PreviewMessage> early;  // a preview whose frame is not here yet
-    Stamp early_deadline = 0;
+    SteadyTime early_deadline;
     std::uint32_t last_answered = 0;
   };
   struct Question {
@@ -60,16 +60,16 @@ class Director final : public ExchangeRole {
   };
   struct Sent {
     RgbdFramePtr frame;
-    Stamp at = 0;
+    SteadyTime at;
   };
 
   Duration patience() const;
   bool is_slow() const;
   RgbdFramePtr choose(Stamp stamp) const;
-  RgbdFramePtr last_sent(Stamp now);
-  void answer(const Question& question, Stamp deadline, Stamp now, RoleOutput& out);
+  RgbdFramePtr last_sent(SteadyTime now);
+  void answer(const Question& question, SteadyTime deadline, SteadyTime now, RoleOutput& out);
   void answer_with(const Question& question, const RgbdFramePtr& first, const RgbdFramePtr& second,
-                   Stamp now, RoleOutput& out);
+                   SteadyTime now, RoleOutput& out);
   void refuse(const Question& question, const RgbdFrame& newest, RoleOutput& out);
   PoseVerdict no_frame_near(Stamp stamp) const;
   Attempt try_frame(const Question& question, const RgbdFrame& frame,
@@ -79,7 +79,8 @@ class Director final : public ExchangeRole {
                        const PreviewContent& content, Attempt& attempt);
   void remember(const Question& question, const RelativePoseMessage& pose);
   std::vector<Pose> worth_trying(const Question& question, const FrameNames& frames) const;
-  void send_whole(const Question& question, const RgbdFramePtr& frame, Stamp now, RoleOutput& out);
+  void send_whole(const Question& question, const RgbdFramePtr& frame, SteadyTime now,
+                  RoleOutput& out);
 
   const std::string name_;
   const PreviewOptions options_;

@@ -10,6 +10,7 @@
 #include "rprr_geometry/camera.hpp"
 #include "rprr_geometry/rgbd_frame.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_pose/messages.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/preview.hpp"
@@ -75,15 +76,15 @@ class ExchangeRole {
  public:
   virtual ~ExchangeRole() = default;
   /// A new frame of this robot.
-  virtual void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) = 0;
+  virtual void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) = 0;
   /// A message of a peer, as it came from the radio. Those for other receivers and those of peers
   /// that the role does not serve are ignored.
-  virtual void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  virtual void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                        RoleOutput& out) = 0;
   /// Time passes; call it a few times per timeout.
-  virtual void tick(Stamp now, RoleOutput& out) = 0;
+  virtual void tick(SteadyTime now, RoleOutput& out) = 0;
   /// The radio has room, or has not. Roles that do not pace themselves ignore it.
-  virtual void set_radio(const RadioState& /*radio*/, Stamp /*now*/, RoleOutput& /*out*/) {}
+  virtual void set_radio(const RadioState& /*radio*/, SteadyTime /*now*/, RoleOutput& /*out*/) {}
   /// An inactive role begins nothing of its own accord. It still answers, and what is under way
   /// ends as it would. Roles are active at first.
   virtual void set_active(bool /*active*/) {}

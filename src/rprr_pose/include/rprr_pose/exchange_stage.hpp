@@ -49,11 +49,11 @@ class ExchangeStage final : public ExchangeRole {
   /// Which protocol the stage speaks: ExchangeOptions::use_previews.
   bool uses_previews() const { return use_previews_; }
 
-  void offer(const RgbdFramePtr& frame, Stamp now, RoleOutput& out) override;
-  void receive(const std::string& peer, const PoseMessage& message, Stamp now,
+  void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override;
+  void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override;
-  void tick(Stamp now, RoleOutput& out) override;
-  void set_radio(const RadioState& radio, Stamp now, RoleOutput& out) override;
+  void tick(SteadyTime now, RoleOutput& out) override;
+  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override;
 
  private:
   struct Part {

@@ -58,7 +58,7 @@ class PreviewPoseEstimator {
 
  private:
   struct Candidate {
-    Pose b_from_a;
+    Pose a_from_b;
     double score = 0.0;
     Agreement b_in_a, a_in_b;
     AlignmentSums sums;

@@ -11,6 +11,7 @@
 
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
@@ -60,9 +61,9 @@ class FrameAssembler {
   /// The frame, when this was its last missing chunk. message_bytes: of the message that carried
   /// it. Chunks that contradict those before them (another count, too long) end their frame.
   std::optional<Frame> add(Stamp stamp, const std::string& frame_id, const FrameChunk& chunk,
-                           std::size_t message_bytes, Stamp now = 0);
+                           std::size_t message_bytes, SteadyTime now = {});
   /// Gives up frames of which nothing came for a while.
-  void expire(Stamp now);
+  void expire(SteadyTime now);
 
   /// Frames of which something was lost.
   std::size_t incomplete() const { return incomplete_; }
@@ -71,7 +72,7 @@ class FrameAssembler {
   struct Partial {
     Stamp stamp = 0;
     std::uint16_t number = 0;
-    Stamp touched = 0;
+    SteadyTime touched;
     std::vector<Bytes> pieces;
     std::size_t missing = 0;
     std::size_t bytes = 0;

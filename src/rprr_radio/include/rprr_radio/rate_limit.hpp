@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -23,21 +23,23 @@ class RateLimit {
   double burst() const { return 0.2 * rate_; }
 
   /// Whether so many bytes may go now; more than a burst never may.
-  bool has_room(std::size_t bytes, Stamp now) { return room(now) >= static_cast<double>(bytes); }
+  bool has_room(std::size_t bytes, SteadyTime now) {
+    return room(now) >= static_cast<double>(bytes);
+  }
   /// Never more than two seconds are owed.
-  void spend(std::size_t bytes, Stamp now) {
+  void spend(std::size_t bytes, SteadyTime now) {
     tokens_ = std::max(room(now) - static_cast<double>(bytes), -2.0 * rate_);
   }
   /// When so many bytes, at most a burst, may go.
-  Stamp room_at(std::size_t bytes, Stamp now) {
+  SteadyTime room_at(std::size_t bytes, SteadyTime now) {
     const double missing = std::min(static_cast<double>(bytes), burst()) - room(now);
     return missing <= 0.0 ? now : now + from_seconds(missing / steady_rate()) + 1;
   }
 
  private:
-  double room(Stamp now) {
+  double room(SteadyTime now) {
     if (now > last_) {
-      if (last_ != 0) tokens_ += steady_rate() * to_seconds(now - last_);
+      if (last_ != SteadyTime{}) tokens_ += steady_rate() * to_seconds(now - last_);
       tokens_ = std::min(tokens_, burst());
       last_ = now;
     }
@@ -46,7 +48,7 @@ class RateLimit {
 
   double rate_;
   double tokens_;
-  Stamp last_ = 0;
+  SteadyTime last_;
 };
 
 }  // namespace rprr

@@ -11,6 +11,7 @@
 
 #include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_radio/rate_limit.hpp"
 #include "rprr_wire/bytes.hpp"
 
@@ -91,27 +92,27 @@ class SendQueue {
   void set_rate(double bandwidth, double frame_rate);
 
   /// Takes a frame up. Returns the frames that gave way and will not be sent.
-  std::vector<QueuedFrame> offer(QueuedFrame frame, Stamp now);
+  std::vector<QueuedFrame> offer(QueuedFrame frame, SteadyTime now);
   /// Bytes that this robot's other messages put on the radio.
-  void spent(std::size_t bytes, Stamp now);
+  void spent(std::size_t bytes, SteadyTime now);
   /// The station's word on a robot's frames: whole ones held, ones to repeat, the last that came.
   void receipt(const std::string& robot, const std::vector<Stamp>& held,
-               const std::vector<Stamp>& repeat, Stamp last, Stamp now);
+               const std::vector<Stamp>& repeat, Stamp last, SteadyTime now);
 
   /// Somebody new listens: what was on its way to others will not be acknowledged.
   void listener_joined() { in_flight_.clear(); }
 
   /// What to encode now, if anything: then encoded() or failed() must follow.
-  std::optional<EncodeOrder> next_to_encode(Stamp now);
-  void encoded(const EncodeOrder& order, Bytes data, Stamp now);
+  std::optional<EncodeOrder> next_to_encode(SteadyTime now);
+  void encoded(const EncodeOrder& order, Bytes data, SteadyTime now);
   void failed() { encoding_ = false; }
 
   /// What to send now, if anything; call until there is none.
-  std::optional<SendOrder> next_to_send(Stamp now);
+  std::optional<SendOrder> next_to_send(SteadyTime now);
 
-  RadioRoom room(Stamp now);
+  RadioRoom room(SteadyTime now);
   /// Seconds until everything that is encoded is sent.
-  double backlog(Stamp now);
+  double backlog(SteadyTime now);
   std::size_t waiting() const { return queue_.size(); }
   /// Whether there is a bandwidth, or receipts tell that a frame as it is usually takes long.
   bool is_narrow() const {
@@ -119,18 +120,18 @@ class SendQueue {
   }
   std::size_t repeated() const { return repeated_; }  // frames, so far
   /// The station did send receipts, and sends none any more.
-  bool receipts_ceased(Stamp now) const {
+  bool receipts_ceased(SteadyTime now) const {
     return options_.receipt_timeout > 0 && last_receipt_ && !hears_receipts(now);
   }
 
  private:
   struct Entry {
     QueuedFrame frame;
-    Stamp offered = 0;
+    SteadyTime offered;
   };
   struct Reference {  // that a sparse frame waits or waited for
     Stamp stamp = 0;
-    Stamp since = 0;
+    SteadyTime since;
   };
   struct Message {
     Stamp stamp = 0;
@@ -140,36 +141,36 @@ class SendQueue {
     std::uint16_t number = 0;
     bool whole = false;
     bool repeated = false;
-    Stamp begun = 0;
+    SteadyTime begun;
     std::size_t next = 0;  // chunk
   };
   struct Sent {
     Stamp stamp = 0;
-    Stamp begun = 0;
-    Stamp at = 0;  // when its last byte was handed over
+    SteadyTime begun;
+    SteadyTime at;  // when its last byte was handed over
     std::size_t bytes = 0;
     bool whole = false;
   };
   struct Kept {
     Message message;
-    std::optional<Stamp> repeated;
+    std::optional<SteadyTime> repeated;
   };
 
   bool limited() const { return options_.bandwidth > 0.0; }
-  bool hears_receipts(Stamp now) const;
+  bool hears_receipts(SteadyTime now) const;
   bool is_held(const std::string& robot, Stamp stamp) const;
-  bool may_go(const Entry& entry, Stamp now) const;
-  bool window_is_full(Stamp now) const;
+  bool may_go(const Entry& entry, SteadyTime now) const;
+  bool window_is_full(SteadyTime now) const;
   Duration lost_after() const;
   Duration reference_patience() const;
   std::size_t frame_limit();
   std::size_t chunk_size() const;
   std::size_t bytes_left() const;
-  void sent_all(std::size_t bytes, Stamp now);
-  void acknowledge(Stamp last, const std::vector<Stamp>& held, Stamp now);
-  void learn(const Sent& sent, Stamp now);
-  void learn_wait(const std::vector<Stamp>& held, Stamp now);
-  void repeat(Stamp stamp, Stamp now);
+  void sent_all(std::size_t bytes, SteadyTime now);
+  void acknowledge(Stamp last, const std::vector<Stamp>& held, SteadyTime now);
+  void learn(const Sent& sent, SteadyTime now);
+  void learn_wait(const std::vector<Stamp>& held, SteadyTime now);
+  void repeat(Stamp stamp, SteadyTime now);
 
   static constexpr double kSlow = 0.5;  // seconds for a frame
 
@@ -184,12 +185,12 @@ class SendQueue {
   std::deque<Kept> kept_;                           // whole frames that may be asked for again
   std::deque<Stamp> own_sent_;                      // whole frames
   std::map<std::string, std::vector<Stamp>> held_;  // of this robot and its references
-  std::optional<Stamp> last_receipt_;
+  std::optional<SteadyTime> last_receipt_;
   std::deque<Reference> awaited_;  // oldest first
   double receipt_seconds_ = 0.0;   // from handing a frame over to its receipt, smoothed
   double whole_seconds_ = 0.0;     // from encoding a whole frame on, likewise
   double usual_bytes_ = 0.0;       // of a frame that is not coarsened, likewise
-  Stamp acknowledged_at_ = 0;
+  SteadyTime acknowledged_at_;
   double delivery_rate_ = 0.0;      // bytes a second, likewise; 0: not known
   double reference_seconds_ = 0.0;  // that receipts of references take, likewise
   double control_per_frame_ = 0.0;  // bytes of other messages between frames, smoothed

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -22,20 +22,20 @@ class HostWatch {
 
   /// To be called some times a second. quiet: seconds since bytes came on any connection that is
   /// open to the host; answered: a probe was answered since the last call.
-  Step step(double quiet, bool answered, Stamp now);
+  Step step(double quiet, bool answered, SteadyTime now);
 
   /// Seconds for which the host has answered no probe; 0 if there is no reason to think it gone.
-  double unanswered_for(Stamp now) const;
+  double unanswered_for(SteadyTime now) const;
 
  private:
-  Step on_answer(Stamp now);
-  void on_bytes(Stamp now);
+  Step on_answer(SteadyTime now);
+  void on_bytes(SteadyTime now);
   void learn(Duration waited);
   Duration gone_after() const;
 
-  std::optional<Stamp> unanswered_since_;
-  std::optional<Stamp> renew_at_;
-  Stamp next_probe_ = 0;
+  std::optional<SteadyTime> unanswered_since_;
+  std::optional<SteadyTime> renew_at_;
+  SteadyTime next_probe_;
   Duration slowest_ = from_seconds(1.0);  // answer so far, forgotten by and by; a guess at first
 };
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -39,16 +39,16 @@ class Probe {
   Probe& operator=(const Probe&) = delete;
 
   /// Sends one; those of the last two seconds may still be answered.
-  void send(const SocketAddress& to, Stamp now);
+  void send(const SocketAddress& to, SteadyTime now);
   /// Whether one was answered since the last call: accepted, or refused.
-  bool was_answered(Stamp now);
+  bool was_answered(SteadyTime now);
   /// Adds the sockets of probes that may still be answered.
   void add_sockets(std::set<int>& sockets) const;
 
  private:
   struct Attempt {
     int socket = -1;
-    Stamp since = 0;
+    SteadyTime since;
   };
   std::deque<Attempt> attempts_;
 };

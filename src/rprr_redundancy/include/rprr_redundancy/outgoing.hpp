@@ -9,6 +9,7 @@
 
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_redundancy/recent_stamps.hpp"
 #include "rprr_wire/bytes.hpp"
 
@@ -65,14 +66,15 @@ class Outgoing {
   /// The exchange with `peer` found a pose; `validated` is B_v of the frame and lends its grid to
   /// the mask that is to come from the peer.
   std::vector<OutgoingDecision> accepted(Stamp stamp, const std::string& peer,
-                                         std::uint32_t exchange, BlockMask validated, Stamp now);
+                                         std::uint32_t exchange, BlockMask validated,
+                                         SteadyTime now);
 
   /// Ignored: predictions for others, repeated ones, ones for frames that are decided or that wait
   /// for another peer's.
-  std::vector<OutgoingDecision> prediction(const PredictionMessage& message, Stamp now);
+  std::vector<OutgoingDecision> prediction(const PredictionMessage& message, SteadyTime now);
 
   /// Frames whose prediction did not come in time go out whole.
-  std::vector<OutgoingDecision> tick(Stamp now);
+  std::vector<OutgoingDecision> tick(SteadyTime now);
 
   /// Somebody else decided about the frame: it neither waits nor is decided about any more.
   void settle(Stamp stamp);
@@ -91,7 +93,7 @@ class Outgoing {
     std::string peer;
     std::uint32_t exchange;
     BlockMask validated;
-    Stamp deadline;
+    SteadyTime deadline;
   };
   struct Early {
     Stamp stamp;
@@ -100,7 +102,7 @@ class Outgoing {
     Bytes mask;
     bool too_long;
     std::size_t message_bytes;
-    Stamp forget_at;
+    SteadyTime forget_at;
   };
 
   void drop_waiting(Stamp stamp);

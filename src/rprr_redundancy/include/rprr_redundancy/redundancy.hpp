@@ -56,11 +56,11 @@ class Redundancy {
 
   /// What an exchange decided about one of this robot's frames. Decisions are local but may come
   /// from another process: what makes no sense is a problem, and the frame goes out whole.
-  void take(const FrameDecision& decision, Stamp now, RedundancyOutput& out);
+  void take(const FrameDecision& decision, SteadyTime now, RedundancyOutput& out);
   /// A prediction as it came over the radio: untrusted.
-  void receive(const PredictionMessage& message, Stamp now, RedundancyOutput& out);
+  void receive(const PredictionMessage& message, SteadyTime now, RedundancyOutput& out);
   /// Frames whose prediction did not come in time go out whole. Call it a few times per timeout.
-  void tick(Stamp now, RedundancyOutput& out);
+  void tick(SteadyTime now, RedundancyOutput& out);
 
  private:
   struct Held {
@@ -70,7 +70,7 @@ class Redundancy {
 
   void predict(const FrameDecision& decision, RedundancyOutput& out);
   void send_reference(const FrameDecision& decision, RedundancyOutput& out);
-  void decide(const FrameDecision& decision, Stamp now, RedundancyOutput& out);
+  void decide(const FrameDecision& decision, SteadyTime now, RedundancyOutput& out);
   void emit(const std::vector<OutgoingDecision>& decisions, RedundancyOutput& out);
   OutgoingFrame frame_of(const OutgoingDecision& decision, const Held& held);
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -15,11 +16,12 @@ class SenderWatch {
  public:
   /// topic: any name for it; publisher: the node that sent a message now. Returns a text for people
   /// if another node did so within the last seconds.
-  std::string note(const std::string& topic, const std::string& publisher, Stamp now);
+  std::string note(const std::string& topic, const std::string& publisher, SteadyTime now);
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::map<std::string, Stamp>> seen_;  // publishers of a topic, and when
+  std::map<std::string, std::map<std::string, SteadyTime>>
+      seen_;  // publishers of a topic, and when
 };
 
 }  // namespace rprr

@@ -3,16 +3,16 @@
 
 #include <chrono>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
-/// Nanoseconds on the steady clock, which is what timeouts run on: they must not follow a clock
-/// that is set or a bag that starts again.
-inline Stamp steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+/// The time of the steady clock, which timeouts run on: they must not follow a clock that is set or
+/// a bag that starts again.
+inline SteadyTime steady_now() {
+  return SteadyTime(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                        std::chrono::steady_clock::now().time_since_epoch())
+                        .count());
 }
 
 }  // namespace rprr

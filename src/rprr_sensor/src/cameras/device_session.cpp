@@ -30,7 +30,7 @@ DeviceSession::DeviceSession(std::unique_ptr<RgbdDriver> driver, const SessionOp
 }
 
 SessionStep DeviceSession::step() {
-  const Stamp now = clocks_.steady();
+  const SteadyTime now = clocks_.steady();
   if (device_) return read(now);
   if (now < next_try_) {
     SessionStep step;
@@ -40,7 +40,7 @@ SessionStep DeviceSession::step() {
   return open(now);
 }
 
-SessionStep DeviceSession::open(Stamp now) {
+SessionStep DeviceSession::open(SteadyTime now) {
   auto device = driver_->open(options_.serial, options_.modes);
   if (!device) return give_up(clocks_.steady(), device.reason());
   device_ = std::move(*device);
@@ -56,7 +56,7 @@ SessionStep DeviceSession::open(Stamp now) {
   return step;
 }
 
-SessionStep DeviceSession::read(Stamp now) {
+SessionStep DeviceSession::read(SteadyTime now) {
   auto image = device_->next(kReadTimeout);
   if (!image) return give_up(now, image.reason());
   now = clocks_.steady();
@@ -77,7 +77,7 @@ SessionStep DeviceSession::read(Stamp now) {
   return step;
 }
 
-SessionStep DeviceSession::take(DeviceImage image, Stamp now) {
+SessionStep DeviceSession::take(DeviceImage image, SteadyTime now) {
   const Stamp stamp = device_clock_.stamp(image.device_time, clocks_.stamps());
   (image.kind == DeviceImage::Kind::colour ? last_colour_ : last_depth_) = now;
   arrivals_.push_back({now, image.kind});
@@ -92,7 +92,7 @@ SessionStep DeviceSession::take(DeviceImage image, Stamp now) {
   return step;
 }
 
-std::optional<SessionNotice> DeviceSession::pace(Stamp now) {
+std::optional<SessionNotice> DeviceSession::pace(SteadyTime now) {
   if (now - pace_checked_ < kMeasured) return std::nullopt;
   pace_checked_ = now;
   forget_old(now);
@@ -117,7 +117,7 @@ std::optional<SessionNotice> DeviceSession::pace(Stamp now) {
   return std::nullopt;
 }
 
-SessionStep DeviceSession::give_up(Stamp now, const std::string& why) {
+SessionStep DeviceSession::give_up(SteadyTime now, const std::string& why) {
   const bool was_open = device_ != nullptr;
   device_.reset();
   next_try_ = now + retry_;
@@ -127,7 +127,7 @@ SessionStep DeviceSession::give_up(Stamp now, const std::string& why) {
   return step;
 }
 
-void DeviceSession::forget_old(Stamp now) {
+void DeviceSession::forget_old(SteadyTime now) {
   while (!arrivals_.empty() && arrivals_.front().when < now - kMeasured) arrivals_.pop_front();
   while (!skews_.empty() && skews_.front().when < now - kMeasured) skews_.pop_front();
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 
 namespace rprr {
 
@@ -14,13 +14,13 @@ namespace rprr {
 class SilenceWatch {
  public:
   /// A frame of that robot came.
-  void heard(const std::string& robot, Stamp now);
+  void heard(const std::string& robot, SteadyTime now);
   /// Seconds since its last frame, if that is too long; a robot that never spoke is not missed.
-  std::optional<double> silent_for(const std::string& robot, Stamp now) const;
+  std::optional<double> silent_for(const std::string& robot, SteadyTime now) const;
 
  private:
   struct Robot {
-    Stamp last = 0;
+    SteadyTime last;
     double interval = 0.0;  // seconds between frames, smoothed
   };
   std::map<std::string, Robot> robots_;

@@ -17,6 +17,7 @@
 #include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/se3.hpp"
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_radio/frame_chunk.hpp"
 #include "rprr_station/energy.hpp"
 #include "rprr_view/base_fusion.hpp"
@@ -115,9 +116,9 @@ class Station {
   /// colour decodes colour payloads: isolated in its own process where they come over a radio.
   Station(StationOptions options, std::unique_ptr<ColourDecoder> colour);
 
-  StationOutput receive(const ReceivedMessage& message, Stamp now);
+  StationOutput receive(const ReceivedMessage& message, SteadyTime now);
   /// Asks for references that do not come and gives up sparse frames whose reference does not come.
-  StationOutput tick(Stamp now);
+  StationOutput tick(SteadyTime now);
 
   /// Stamps of the whole frames held of a robot, oldest first.
   std::vector<Stamp> held(const std::string& robot) const;
@@ -136,8 +137,8 @@ class Station {
   struct Waiting {
     RebuiltFrame frame;
     EncodedFrame encoded;
-    Stamp deadline;
-    Stamp ask_at = 0;  // for its reference; 0: was asked for
+    SteadyTime deadline;
+    std::optional<SteadyTime> ask_at;  // when its reference is asked for; none: it was
   };
   struct Robot {
     std::deque<Reference> references;
@@ -147,16 +148,16 @@ class Station {
     Stamp last = 0;
   };
 
-  void receive_chunk(const ReceivedMessage& message, Stamp now, StationOutput& output);
+  void receive_chunk(const ReceivedMessage& message, SteadyTime now, StationOutput& output);
   void report_incomplete(const std::string& name, Robot& robot, StationOutput& output);
-  void receive_frame(const ReceivedMessage& message, Stamp now, StationOutput& output);
+  void receive_frame(const ReceivedMessage& message, SteadyTime now, StationOutput& output);
   Result<EncodedFrame> parse(const ReceivedMessage& message, RebuiltFrame& frame) const;
   void account(const ReceivedMessage& message, const EncodedFrame& encoded,
                RebuiltFrame& frame) const;
   void rebuild_whole(RebuiltFrame frame, const EncodedFrame& encoded, StationOutput& output);
   void rebuild_sparse(RebuiltFrame frame, const EncodedFrame& encoded, const Reference& reference,
                       StationOutput& output);
-  void wait(RebuiltFrame frame, EncodedFrame encoded, Stamp now, StationOutput& output);
+  void wait(RebuiltFrame frame, EncodedFrame encoded, SteadyTime now, StationOutput& output);
   void serve_waiting(const std::string& reference, Stamp stamp, StationOutput& output);
   void give_up(const Waiting& waiting, const std::string& reason, StationOutput& output) const;
   const Reference* find_reference(const std::string& robot, Stamp stamp) const;

@@ -38,7 +38,7 @@ class ExchangeHarness {
 
  private:
   struct InFlight {
-    Stamp arrival;
+    SteadyTime arrival;
     bool to_dependent;
     PoseMessage message;
   };
@@ -50,7 +50,7 @@ class ExchangeHarness {
   Side reference_;
   Side dependent_;
   const Duration latency_;
-  Stamp now_ = 0;
+  SteadyTime now_;
   std::vector<InFlight> channel_;
   bool decided_ = false;
 };

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
@@ -49,9 +49,9 @@ class FaultChannel {
 
   /// From now on; what is under way stays as it is, but for a channel that goes down.
   void set(const Faults& faults);
-  void add(ChannelMessage message, Stamp now);
+  void add(ChannelMessage message, SteadyTime now);
   /// Messages that come out until now, in their order.
-  std::vector<Bytes> due(Stamp now);
+  std::vector<Bytes> due(SteadyTime now);
 
   const Counts& counts() const { return counts_; }
   std::size_t under_way() const { return under_way_.size(); }
@@ -65,7 +65,7 @@ class FaultChannel {
   std::mt19937 random_;
   std::size_t capacity_;
   Faults faults_;
-  std::multimap<Stamp, Bytes> under_way_;  // by when they come out
+  std::multimap<SteadyTime, Bytes> under_way_;  // by when they come out
   Counts counts_;
 };
 

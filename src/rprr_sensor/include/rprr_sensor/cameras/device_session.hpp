@@ -9,6 +9,7 @@
 #include <string>
 
 #include "rprr_geometry/stamp.hpp"
+#include "rprr_geometry/steady_time.hpp"
 #include "rprr_sensor/cameras/device_clock.hpp"
 #include "rprr_sensor/cameras/frame_pairing.hpp"
 #include "rprr_sensor/cameras/rgbd_device.hpp"
@@ -26,8 +27,8 @@ struct SessionOptions {
 };
 
 struct SessionClocks {
-  std::function<Stamp()> steady;  // for timeouts
-  std::function<Stamp()> stamps;  // for frames
+  std::function<SteadyTime()> steady;  // for timeouts
+  std::function<Stamp()> stamps;       // for frames
 };
 
 /// Something that a person should know.
@@ -72,20 +73,20 @@ class DeviceSession {
 
  private:
   struct Arrival {
-    Stamp when;
+    SteadyTime when;
     DeviceImage::Kind kind;
   };
   struct Skew {
-    Stamp when;
+    SteadyTime when;
     Duration skew;
   };
 
-  SessionStep open(Stamp now);
-  SessionStep read(Stamp now);
-  SessionStep take(DeviceImage image, Stamp now);
-  std::optional<SessionNotice> pace(Stamp now);
-  SessionStep give_up(Stamp now, const std::string& why);
-  void forget_old(Stamp now);
+  SessionStep open(SteadyTime now);
+  SessionStep read(SteadyTime now);
+  SessionStep take(DeviceImage image, SteadyTime now);
+  std::optional<SessionNotice> pace(SteadyTime now);
+  SessionStep give_up(SteadyTime now, const std::string& why);
+  void forget_old(SteadyTime now);
 
   std::unique_ptr<RgbdDriver> driver_;  // outlives its device
   SessionOptions options_;
@@ -95,11 +96,11 @@ class DeviceSession {
   FramePairing pairing_;
   std::uint64_t times_opened_ = 0;
   Duration retry_ = 0;
-  Stamp next_try_ = 0;   // steady
-  Stamp opened_at_ = 0;  // steady, likewise the rest
-  Stamp last_colour_ = 0;
-  Stamp last_depth_ = 0;
-  Stamp pace_checked_ = 0;
+  SteadyTime next_try_;   // steady
+  SteadyTime opened_at_;  // steady, likewise the rest
+  SteadyTime last_colour_;
+  SteadyTime last_depth_;
+  SteadyTime pace_checked_;
   std::deque<Arrival> arrivals_;
   std::deque<Skew> skews_;
 };
