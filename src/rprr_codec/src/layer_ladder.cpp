@@ -12,7 +12,7 @@ namespace {
 struct Rung {
   int reduction;  // of the base
   int base;       // quality, on WebP's scale
-  int detail;     // likewise; kNone: the base alone
+  int detail;     // quality of the detail layer; kNone: the base alone
   int like;       // quality of a whole image, on WebP's scale, that shows as much
 };
 constexpr int kNone = -1;

@@ -295,7 +295,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   std::map<std::uint64_t, OutgoingFrameConstPtr> waiting_;  // by ticket: what queue_ holds
   std::uint64_t last_ticket_ = 0;
   std::unique_ptr<FrameEncoder> next_encoder_;  // after a reconfiguration
-  std::unique_ptr<FrameEncoder> encoder_;       // the worker's, as the next two
+  std::unique_ptr<FrameEncoder> encoder_;       // worker thread
   RadioRoom told_;
   SteadyTime told_at_;
   ros::Publisher publisher_;

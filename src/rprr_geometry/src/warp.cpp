@@ -77,7 +77,7 @@ void project(const PixelMap& to_target, const std::uint16_t* counts, int first, 
 
 // Pixels whose centres are within half a footprint of (x, y), which is in the image: x and y as
 // project() gives them. half_at_unit: half a footprint where source and target see a depth of one
-// count alike. Plain numbers, likewise.
+// count alike. They are plain numbers, which stay in registers.
 template <Footprint kFootprint>
 void find_covered(const std::uint16_t* __restrict counts, const float* __restrict x,
                   const float* __restrict y, const float* __restrict depth, int count, float width,

@@ -10,17 +10,57 @@
 #include "rprr_pose/frame_views.hpp"
 
 namespace rprr {
+
+// One stage of the search: all candidates are aligned, and the best distinct ones are kept.
+struct SearchStage {
+  int stride;        // between the points of b's view that are aligned, both ways [cells]
+  int iterations;    // of the alignment
+  float gate;        // of its first iteration, AlignmentOptions::gate [m]
+  float last_gate;   // of its last iteration [m]
+  std::size_t keep;  // candidates at most
+  double metres;     // two candidates are the same pose if they are nearer than this [m]
+  double degrees;    // and turned by less than this [degrees]
+
+  AlignmentOptions alignment() const {
+    AlignmentOptions options;
+    options.iterations = iterations;
+    options.gate = gate;
+    options.last_gate = last_gate;
+    return options;
+  }
+};
+
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr std::size_t kSlid = 6;  // candidates that are also tried some way along
-constexpr double kRival = 0.75;   // of a warm pose's score: another one that scores more is a rival
-constexpr double kSharedPower = 0.4;      // how much more of a view that is shared counts
-constexpr double kSlideStep = 0.25;       // metres
-constexpr double kMetresPerRadian = 2.0;  // what makes a turn and a step comparable
-constexpr std::size_t kRefined = 4;       // candidates that are aligned to the full depth of a
+
+// The numbers of the search were chosen for right poses per millisecond with `rprr_eval poses` and
+// `rprr_eval timing`: the tables of docs/pose.md show what they give.
+
+constexpr SearchStage kFirstStage{3, 6, 0.6f, 0.25f, 40, 0.04, 1.5};  // at half resolution
+constexpr SearchStage kSecondStage{2, 5, 0.5f, 0.2f, 14, 0.05, 2.0};  // at half resolution
+constexpr SearchStage kSlidStage{3, 4, 0.25f, 0.2f, 12, 0.05, 2.0};   // at half resolution
+constexpr SearchStage kBlockStage{3, 4, 0.25f, 0.12f, 6, 0.05, 2.0};  // at block resolution
+// The last alignment, of every second point of b to a's own depth, neither kept nor dropped.
+constexpr SearchStage kRefinement{2, 10, 0.12f, 0.05f, 0, 0.0, 0.0};
+constexpr std::size_t kRefined = 4;  // candidates that are refined
+
+constexpr std::size_t kSlid = 6;     // candidates that are also tried some way along
+constexpr double kSlideStep = 0.25;  // [m] how far luma can tell
+constexpr double kMetresPerRadian =
+    2.0;                         // [m] at this distance a turn moves what is seen as a step
+constexpr double kRival = 0.75;  // of a warm pose's score: another pose that scores more is a rival
+// Two poses that differ by more than either of these are different answers: twice what counts as a
+// right pose (8 cm, 3 degrees).
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
+
+// A block counts as 1 where the depths agree and as -2 where one view looked through the other's
+// surface. Where it hides behind the other's surface it counts as -0.5: that may be right.
+constexpr double kViolatingWeight = 2.0;
+constexpr double kHiddenWeight = 0.5;
+// True poses of views that overlap by half must not lose to wrong ones that overlap by more.
+constexpr double kOverlapPower = 0.4;
 constexpr int kFewestCells = 40;  // cells with depth, since align() gives up below 40 residuals
 
 bool differ(const Pose& left, const Pose& right, double metres, double degrees) {
@@ -58,8 +98,9 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
   candidate.b_in_a = agreement(b_[0], a_[0], candidate.a_from_b);
   candidate.a_in_b = agreement(a_[0], b_[0], candidate.a_from_b.inverse());
   const auto one_way = [](const Agreement& way) {
-    const double agreement = way.of_shared(way.consistent - 2.0 * way.violating - 0.5 * way.hidden);
-    return std::max(0.0, agreement) * std::pow(way.shared(), kSharedPower);
+    const double agreement = way.of_shared(way.consistent - kViolatingWeight * way.violating -
+                                           kHiddenWeight * way.hidden);
+    return std::max(0.0, agreement) * std::pow(way.shared(), kOverlapPower);
   };
   const double geometry = 0.5 * (one_way(candidate.b_in_a) + one_way(candidate.a_in_b));
   const double colour = 0.5 * (candidate.b_in_a.correlation + candidate.b_in_a.fine_correlation);
@@ -67,10 +108,7 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
 }
 
 bool PreviewPoseEstimator::refine(Candidate& candidate) const {
-  AlignmentOptions options;
-  options.iterations = 10;
-  options.gate = 0.12f;
-  options.last_gate = 0.05f;
+  AlignmentOptions options = kRefinement.alignment();
   options.scatter = true;
   FixedView fixed = fine_;
   fixed.cells = &a_[0];
@@ -78,12 +116,12 @@ bool PreviewPoseEstimator::refine(Candidate& candidate) const {
 }
 
 // Aligns every candidate a little further, then keeps the best distinct ones.
-void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_t level, int stride,
-                                  const AlignmentOptions& options, std::size_t keep, double metres,
-                                  double degrees) const {
+void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_t level,
+                                  const SearchStage& stage) const {
   FixedView fixed;
   fixed.cells = &a_[level];
-  const MovingPoints points = points_of(b_[level], stride);
+  const MovingPoints points = points_of(b_[level], stage.stride);
+  const AlignmentOptions options = stage.alignment();
   for (Candidate& candidate : candidates) {
     const bool found = align(points, fixed, options, candidate.a_from_b, candidate.sums);
     candidate.score = found ? candidate.sums.score() : 0.0;
@@ -91,9 +129,9 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   std::stable_sort(candidates.begin(), candidates.end(), better);
   std::vector<Candidate> kept;
   for (const Candidate& candidate : candidates) {
-    if (kept.size() >= keep || candidate.score <= 0.0) break;
+    if (kept.size() >= stage.keep || candidate.score <= 0.0) break;
     if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-          return differ(candidate.a_from_b, other.a_from_b, metres, degrees);
+          return differ(candidate.a_from_b, other.a_from_b, stage.metres, stage.degrees);
         })) {
       kept.push_back(candidate);
     }
@@ -101,9 +139,10 @@ void PreviewPoseEstimator::narrow(std::vector<Candidate>& candidates, std::size_
   candidates = std::move(kept);
 }
 
-// Along a corridor or a wall depth lets a pose slide, and what repeats there fits again further on:
-// the best candidates are tried again along the two directions that depth knows least, a little way
-// for luma to tell, and wherever the coarsest views match once more.
+// Adds candidates. Along a corridor or a wall depth lets a pose slide, and what repeats there fits
+// again further on. So the best candidates are moved along the two directions that depth knows
+// least: a small step, whose end luma can tell apart, and to every place where the coarsest views
+// match once more.
 void PreviewPoseEstimator::slide(const CoarseMatch& match,
                                  std::vector<Candidate>& candidates) const {
   const std::size_t count = std::min(candidates.size(), kSlid);
@@ -126,8 +165,8 @@ void PreviewPoseEstimator::slide(const CoarseMatch& match,
   }
 }
 
-// Finds the distinct poses that align and puts the best one first. The search began with
-// best_start, which stays as it is if there was nothing to begin with.
+// Finds the distinct poses that align and puts the best one first. best_start becomes the most
+// promising start; it stays as it was if there is no start.
 std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search(
     Candidate& best_start) const {
   const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
@@ -139,11 +178,11 @@ std::vector<PreviewPoseEstimator::Candidate> PreviewPoseEstimator::search(
     candidates.back().a_from_b = start;
   }
   if (!candidates.empty()) best_start = candidates.front();
-  narrow(candidates, middle, 3, {6, 0.6f, 0.25f}, 40, 0.04, 1.5);
-  narrow(candidates, middle, 2, {5, 0.5f, 0.2f}, 14, 0.05, 2.0);
+  narrow(candidates, middle, kFirstStage);
+  narrow(candidates, middle, kSecondStage);
   slide(match, candidates);
-  narrow(candidates, middle, 3, {4, 0.25f, 0.2f}, 12, 0.05, 2.0);
-  narrow(candidates, 0, 3, {4, 0.25f, 0.12f}, 6, 0.05, 2.0);
+  narrow(candidates, middle, kSlidStage);
+  narrow(candidates, 0, kBlockStage);
   for (Candidate& candidate : candidates) judge(candidate);
   std::stable_sort(candidates.begin(), candidates.end(), better);
   if (candidates.size() > kRefined) candidates.resize(kRefined);
@@ -186,13 +225,16 @@ PoseVerdict PreviewPoseEstimator::why_nothing(Candidate start) const {
   return verdict.accepted() ? PoseVerdict{PoseStatus::kNotConverged} : verdict;
 }
 
-// A warm start was held against no other pose: where depth leaves it free to slide, the nearest
-// places where the views match once more are its rivals.
+// Whether no rival fits about as well as a pose from an initial guess, which was compared with no
+// other pose so far. Its rivals are the places where the views match once more, along the
+// directions in which depth leaves it free to slide.
 bool PreviewPoseEstimator::stands_alone(const Candidate& warm) const {
   const std::size_t coarsest = std::min(a_.size(), b_.size()) - 1;
   std::vector<Candidate> candidates{warm};
   slide(CoarseMatch(b_[coarsest], a_[coarsest]), candidates);
-  narrow(candidates, coarsest - 1, 3, {4, 0.25f, 0.2f}, candidates.size(), 0.05, 2.0);
+  SearchStage stage = kSlidStage;
+  stage.keep = candidates.size();
+  narrow(candidates, coarsest - 1, stage);
   double own = 0.0;
   double rival = 0.0;
   for (const Candidate& candidate : candidates) {
@@ -207,7 +249,7 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
                                            const Camera& b_camera, const std::vector<Pose>& warm) {
   prepare(a);
   b_ = pyramid(make_view(b, b_camera));
-  refined_points_ = points_of(b_[0], 2);
+  refined_points_ = points_of(b_[0], kRefinement.stride);
   for (const Pose& b_from_a : warm) {
     Candidate candidate;
     candidate.a_from_b = b_from_a.inverse();
@@ -215,8 +257,8 @@ PreviewPose PreviewPoseEstimator::estimate(const RgbdFrame& a, const BlockPrevie
     judge(candidate);
     PreviewPose pose = finish(candidate, 0.0);
     const double needed = options_.limits.min_evidence + options_.limits.warm_evidence;
-    const bool is_believed = pose.verdict.accepted() && pose.log_odds >= needed;
-    if (!is_believed || !stands_alone(candidate)) continue;
+    const bool is_accepted = pose.verdict.accepted() && pose.log_odds >= needed;
+    if (!is_accepted || !stands_alone(candidate)) continue;
     pose.verdict.needed = static_cast<float>(needed);
     return pose;
   }

@@ -56,7 +56,7 @@ TEST(ClockOffset, AClockThatIsSetIsNoticedWithTheNextExchange) {
   clock.add(0.013, -0.001, kStart + 300);
   ASSERT_TRUE(clock.estimate(kStart + 300));
   EXPECT_NEAR(clock.estimate(kStart + 300)->offset, 0.006, 1e-9)
-      << "a forged answer is outdone likewise";
+      << "a forged answer is outdone as well";
 }
 
 TEST(ClockOffset, ALongWayContradictsNothing) {

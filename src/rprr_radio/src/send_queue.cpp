@@ -11,19 +11,25 @@
 namespace rprr {
 namespace {
 
-constexpr std::size_t kStampsHeld = 64;    // of a robot, as a receipt says; the station holds a few
-constexpr std::size_t kRobotsHeld = 32;    // references of this robot
-constexpr std::size_t kFramesKept = 2;     // whole ones, to be repeated
-constexpr std::size_t kLeastChunk = 1380;  // bytes: with its headers one Ethernet frame
-constexpr std::size_t kMostChunk = 8192;
+// Memory stays bounded whatever receipts say.
+constexpr std::size_t kStampsHeld = 64;   // frames that a receipt may name; a station holds a few
+constexpr std::size_t kRobotsHeld = 32;   // robots whose frames this robot refers to
+constexpr std::size_t kFramesKept = 2;    // whole frames that can be sent again
+constexpr std::size_t kAwaitedKept = 16;  // references whose receipt is awaited
+
+constexpr std::size_t kLeastChunk = 1380;  // [bytes] with its headers it fills one Ethernet frame
+constexpr std::size_t kMostChunk = 8192;   // [bytes] at 200 kbit/s others wait a third of a second
+// Weight of the newest sample. After five samples a change of the radio counts for five sixths.
 constexpr double kSmoothing = 0.3;
-constexpr std::size_t kAwaitedKept = 16;
-constexpr double kQuick = 0.1;  // seconds for a receipt: the radio is far from full
+
+constexpr double kQuick = 0.1;  // [s] a receipt that is quicker comes over a radio with much room
 constexpr Duration kLostWhenQuick = from_seconds(2.0);
 constexpr Duration kLostInSilence = from_seconds(8.0);
+// Receipts may take so many times as long as usual before a frame counts as lost.
+constexpr double kPatience = 2.5;
 constexpr Duration kLongestPatience = from_seconds(20.0);
 constexpr Duration kForgotten = from_seconds(60.0);  // a receipt that comes later tells nothing
-// Bytes of the serialised message around its data, and TCPROS's length.
+// Bytes of the serialised message around its data, with TCPROS's length.
 constexpr std::size_t kAround = encoded_message_bytes(0, 0) + 4;
 
 void smooth(double sample, double& value) {
@@ -133,7 +139,7 @@ void SendQueue::learn_wait(const std::vector<Stamp>& held, SteadyTime now) {
 }
 
 Duration SendQueue::reference_patience() const {
-  return std::clamp(from_seconds(2.5 * reference_seconds_), options_.receipt_timeout,
+  return std::clamp(from_seconds(kPatience * reference_seconds_), options_.receipt_timeout,
                     std::max(kLongestPatience, options_.receipt_timeout));
 }
 
@@ -141,7 +147,8 @@ Duration SendQueue::lost_after() const {
   const bool quick = receipt_seconds_ > 0.0 && receipt_seconds_ < kQuick;
   const Duration least =
       quick ? std::min(options_.lost_after, kLostWhenQuick) : options_.lost_after;
-  return std::clamp(from_seconds(2.5 * receipt_seconds_), least, std::max(kLongestPatience, least));
+  return std::clamp(from_seconds(kPatience * receipt_seconds_), least,
+                    std::max(kLongestPatience, least));
 }
 
 // Also while a station that did send receipts is silent: the radio may be down, and what is handed

@@ -12,7 +12,7 @@ struct SurfacePoint {
   float u = 0.0f;
   float v = 0.0f;
   float half_width = 1.0f;   // of the face
-  float half_height = 1.0f;  // likewise
+  float half_height = 1.0f;  // [m]
   float footprint = 0.0f;    // what one pixel covers; finer structure fades out
   std::uint32_t face = 0;    // tells a solid's faces apart
 };

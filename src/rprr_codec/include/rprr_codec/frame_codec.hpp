@@ -150,7 +150,7 @@ class FrameEncoder {
   ColourLayers layers_;
   std::array<LayerLadder, 2> ladders_;  // for many blocks, for few
   int last_rung_;                       // where the search for the next frame's begins
-  int last_coarse_rung_ = 0;            // likewise, below what the options ask for
+  int last_coarse_rung_ = 0;  // where it begins for frames coarser than the options ask for
   std::unique_ptr<DhcmEncoder> depth_;
   DepthRounder rounder_;
   FrameDecoder own_decoder_;  // of payloads of our own making, in this process

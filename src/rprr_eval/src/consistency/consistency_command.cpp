@@ -160,7 +160,7 @@ void add_options(CLI::App* command, ConsistencyArguments& arguments) {
   command->add_option("--max-metres", options.max_metres, "of the motions")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
-  command->add_option("--width", options.width, "pixels; the height is 3/4 of it")
+  command->add_option("--width", options.width, "pixels; the height is 3/4 of the width")
       ->check(CLI::Range(128, 1920))
       ->capture_default_str();
   command->add_option("--profile", arguments.profile, "default, paper, or a file")

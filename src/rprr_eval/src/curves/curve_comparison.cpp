@@ -117,7 +117,7 @@ json on_points(const Pairs& pairs, const std::string& codec) {
   return result;
 }
 
-// `view` against whole frames through the same codec, at every byte count of the latter.
+// `view` against whole frames through the same codec, at every byte count of the whole frames.
 json on_curve(const Pairs& pairs, const std::string& codec) {
   Shortfalls all;
   for (const PairCurves* pair : pairs) {

@@ -47,7 +47,7 @@ class Table {
 std::string points_table(const std::vector<json>& folders) {
   const json& first = folders.front()["on_curve"];
   Table table(folders, "`view` at the bytes of independent, " + first["codec"].get<std::string>() +
-                           " at quality: gain in PSNR (pairs on it), in SSIM (likewise)");
+                           " at quality: gain in PSNR and in SSIM (pairs on the curve)");
   for (std::size_t i = 0; i < first["points"].size(); ++i) {
     table.add(number(first["points"][i]["setting"], 0), [i](const json& folder) {
       const json& point = folder["on_curve"]["points"][i];
@@ -67,7 +67,7 @@ std::string on_curve_table(const std::vector<json>& folders) {
     return number(folder["pairs"], 0) + " / " + number(folder["accepted"], 0) + " / " +
            number(folder["pairs_overlap_half"], 0);
   });
-  add("pairs on the whole of it: PSNR / SSIM / both", [](const json& found) {
+  add("pairs on the whole curve: PSNR / SSIM / both", [](const json& found) {
     return percent(found["share_psnr"]) + " / " + percent(found["share_ssim"]) + " / " +
            percent(found["share_both"]);
   });

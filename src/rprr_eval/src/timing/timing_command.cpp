@@ -120,7 +120,10 @@ void add_options(CLI::App* command, TimingArguments& arguments) {
       "--no-peers", [&arguments] { arguments.peers.clear(); }, "time the preview alone");
   command->add_option("--warm-metres", arguments.warm.metres, "the warm start is off by")
       ->capture_default_str();
-  command->add_option("--warm-degrees", arguments.warm.degrees, "likewise")->capture_default_str();
+  command
+      ->add_option("--warm-degrees", arguments.warm.degrees,
+                   "degrees by which warm starts are turned from the pose")
+      ->capture_default_str();
   command->add_option("--json", arguments.json, "write the JSON lines here");
 }
 

@@ -20,7 +20,7 @@ struct CameraMotion {
   };
   Outcome outcome = Outcome::kUnknown;
   Pose later_from_earlier = Pose::Identity();  // with kStill and kMoved, optical
-  double metres = 0.0;                         // of it
+  double metres = 0.0;                         // how far the camera moved [m]
   double radians = 0.0;
   double shared =
       0.0;  // with kStill and kMoved: share of either view that the other shows, the less

@@ -19,9 +19,9 @@ class ClockOffset {
     double uncertainty = 0.0;  // seconds; half of the way there and back
   };
 
-  /// there: by the peer's clock, the time between the question left (this robot's clock) and came;
-  /// back: likewise of the answer, the other way round. Seconds. Untrusted: what makes no sense is
-  /// ignored.
+  /// there: when the question came, by the peer's clock, less when it left, by this robot's [s].
+  /// back: when the answer came, by this robot's clock, less when it left, by the peer's [s].
+  /// Errors: the peer may say anything; what makes no sense is ignored.
   void add(double there, double back, SteadyTime now);
   std::optional<Estimate> estimate(SteadyTime now);
 

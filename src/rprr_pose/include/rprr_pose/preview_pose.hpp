@@ -14,15 +14,17 @@
 
 namespace rprr {
 
-/// When a pose found from a preview is believed.
+struct SearchStage;
+
+/// When a pose that was found from a preview is accepted.
 struct PreviewLimits {
-  double min_overlap = 0.22;    // share of either view's cells that fall into the other on depth
-  double max_violating = 0.04;  // share of those in seen free space, the worse way
-  double min_evidence = 1.0;    // log odds of being right, pose_evidence.hpp
-  double warm_evidence = 1.0;   // what a pose found without the search needs beyond that
-  double min_margin = 0.06;     // of the score over the best distinct other pose
-  double max_sigma_translation = 0.03;  // metres, in the worst direction
-  double max_sigma_rotation = 0.015;    // rad, likewise
+  double min_overlap = 0.22;    ///< share of either view's cells that fall into the other on depth
+  double max_violating = 0.04;  ///< share of the overlap in seen free space, the worse way
+  double min_evidence = 1.0;    ///< log odds of being right, pose_evidence.hpp
+  double warm_evidence = 1.0;   ///< log odds beyond min_evidence for a pose without a search
+  double min_margin = 0.06;     ///< share of the score between this pose and the next distinct one
+  double max_sigma_translation = 0.03;  ///< standard deviation in the worst direction [m]
+  double max_sigma_rotation = 0.015;    ///< standard deviation about the worst axis [rad]
 };
 
 struct PreviewPoseOptions {
@@ -30,29 +32,31 @@ struct PreviewPoseOptions {
   PreviewLimits limits;
 };
 
-/// What came of it.
+/// The pose that was found from a preview, with what tells right from wrong.
 struct PreviewPose {
-  PoseVerdict verdict;                   // the first test that failed; accepted: the log odds
-  Pose b_from_a = Pose::Identity();      // the paper's M_ab
-  Matrix6 covariance = Matrix6::Zero();  // of the left perturbation (tx ty tz rx ry rz) of M_ab
-  double score = 0.0;                    // of the pose
-  double log_odds = 0.0;                 // of being right
-  PoseEvidence evidence;                 // what they come from
-  Agreement b_in_a, a_in_b;
-  AlignmentSums sums;
-  bool searched = false;  // the full search was needed
-  int starts = 0;
+  PoseVerdict verdict;                   ///< the first test that failed; accepted: the log odds
+  Pose b_from_a = Pose::Identity();      ///< the paper's M_ab
+  Matrix6 covariance = Matrix6::Zero();  ///< of b_from_a's left perturbation (tx ty tz rx ry rz)
+  double score = 0.0;                    ///< how well the views match, 0 to 1
+  double log_odds = 0.0;                 ///< of the pose being right
+  PoseEvidence evidence;                 ///< from which log_odds is computed
+  Agreement b_in_a, a_in_b;              ///< of b's cells in a's view, and of a's cells in b's
+  AlignmentSums sums;                    ///< of the last alignment
+  bool searched = false;                 ///< initial guesses were not enough
+  int starts = 0;                        ///< distinct poses that the search was left with
 };
 
-/// The reference's side of the `preview` protocol: from b's preview alone, against a's own frame.
-/// Keeps a's views while the frame stays the same. One object serves one thread.
+/// The reference's side of protocol `preview`: finds the pose from b's preview alone, against a's
+/// own frame. It keeps the views of a's frame while that stays the same. Threads: one object serves
+/// one thread.
 class PreviewPoseEstimator {
  public:
   explicit PreviewPoseEstimator(const PreviewPoseOptions& options) : options_(options) {}
 
-  /// a: the reference's frame, with colour. warm: poses worth trying first (the last accepted one,
-  /// tf, odometry); the full search runs only if none of them verifies, with evidence to spare and
-  /// without a rival along the directions that depth leaves free.
+  /// a: the reference's frame, with colour. warm: initial guesses of b_from_a (the last accepted
+  /// pose, tf, odometry). The full search runs only if none of them is accepted with evidence to
+  /// spare and without a rival along the directions that depth leaves free. Errors: the verdict
+  /// says why there is no pose.
   PreviewPose estimate(const RgbdFrame& a, const BlockPreview& b, const Camera& b_camera,
                        const std::vector<Pose>& warm);
 
@@ -69,9 +73,8 @@ class PreviewPoseEstimator {
   }
 
   void prepare(const RgbdFrame& a);
-  void narrow(std::vector<Candidate>& candidates, std::size_t level, int stride,
-              const AlignmentOptions& options, std::size_t keep, double metres,
-              double degrees) const;
+  void narrow(std::vector<Candidate>& candidates, std::size_t level,
+              const SearchStage& stage) const;
   void judge(Candidate& candidate) const;
   bool refine(Candidate& candidate) const;
   PreviewPose finish(const Candidate& best, double second) const;
@@ -82,10 +85,10 @@ class PreviewPoseEstimator {
 
   PreviewPoseOptions options_;
   Stamp prepared_ = -1;
-  std::vector<PreviewView> a_;  // full block resolution first
-  std::vector<PreviewView> b_;
-  MovingPoints refined_points_;  // of b_'s first, for refine()
-  FixedView fine_;
+  std::vector<PreviewView> a_;   // block resolution first, then coarser and coarser
+  std::vector<PreviewView> b_;   // block resolution first, then coarser and coarser
+  MovingPoints refined_points_;  // of b_[0], for refine()
+  FixedView fine_;               // a's own depth and luma
 };
 
 }  // namespace rprr

@@ -18,7 +18,7 @@ struct SamplesOptions {
   int sample_count = kSampleCount;      // points a robot sends
   int max_iterations = 20;              // from a local start a few are enough; the paper: 50
   double converged_translation = 1e-3;  // metres; ours, those of Lui et al. are not public
-  double converged_rotation = 1e-3;     // rad; likewise
+  double converged_rotation = 1e-3;     // a smaller step ends the iteration [rad]
   bool resample = false;    // new points in every iteration (paper) or one set for an exchange
   bool by_noise = true;     // see IcpWeights
   bool local_start = true;  // reference: align b's points alone to Z_a before asking b again

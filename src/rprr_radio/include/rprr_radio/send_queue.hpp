@@ -21,21 +21,21 @@ namespace rprr {
 constexpr double kLeastBandwidth = 8000.0;
 
 struct SendQueueOptions {
-  std::string robot;          // this one
-  double bandwidth = 0.0;     // bytes a second on this robot's radio, all messages; 0: no limit;
-                              // else at least kLeastBandwidth
-  double frame_rate = 1.0;    // frames a second for which colours are coarsened, if need be
-  std::size_t waiting = 5;    // frames that wait to be encoded
-  std::size_t in_flight = 3;  // frames that the station has not acknowledged; 0: any number
+  std::string robot;          ///< this robot's name
+  double bandwidth = 0.0;     ///< of all messages of this robot [bytes/s]; 0: no limit, else at
+                              ///< least kLeastBandwidth
+  double frame_rate = 1.0;    ///< for which colours are coarsened, if need be [frames/s]
+  std::size_t waiting = 5;    ///< most frames that wait to be encoded
+  std::size_t in_flight = 3;  ///< most frames without receipt; 0: any number
   /// A sparse frame waits so long for the receipt of its reference, or longer where receipts were
   /// seen to take longer, then goes out whole. 0: the station's receipts are not waited for.
   Duration receipt_timeout = from_seconds(2.0);
   /// Without any receipt for so long, the station is taken to send none.
   Duration receipts_silence = from_seconds(3.0);
-  /// A frame without receipt for so long, or longer likewise, is not on its way any more; two
-  /// seconds are enough where receipts come at once.
+  /// A frame without receipt for so long is not on its way any more. It may take longer where
+  /// receipts were seen to take longer; two seconds are enough where they come at once.
   Duration lost_after = from_seconds(4.0);
-  Duration repeat_period = from_seconds(1.0);  // a frame is not repeated more often
+  Duration repeat_period = from_seconds(1.0);  ///< least time between two repeats of a frame
 };
 
 /// Live: bandwidth, frame_rate.
@@ -47,24 +47,24 @@ struct QueuedFrame {
   std::string frame_id;
   std::uint32_t exchange = 0;
   bool sparse = false;
-  std::string reference;  // sparse: robot and stamp of the frame that the station needs for it
-  Stamp reference_stamp = 0;
-  std::uint64_t ticket = 0;  // the caller's name for what is to be encoded
+  std::string reference;      ///< sparse: robot whose frame the station needs to rebuild this one
+  Stamp reference_stamp = 0;  ///< sparse: names that robot's frame
+  std::uint64_t ticket = 0;   ///< the caller's name for what is to be encoded
 };
 
 /// What to encode next.
 struct EncodeOrder {
   QueuedFrame frame;
-  bool as_whole = false;  // a sparse frame whose reference the station has not
-  std::size_t limit = 0;  // bytes of the encoded frame; 0: none
+  bool as_whole = false;  ///< the frame was to be sparse, but the station lacks its reference
+  std::size_t limit = 0;  ///< of the encoded frame [bytes]; 0: no limit
 };
 
 /// What to put on the radio now, as rprr_msgs/EncodedFrame.
 struct SendOrder {
   Stamp stamp = 0;
-  std::string frame_id;  // empty in all chunks but the first
+  std::string frame_id;  ///< empty in all chunks but the first
   std::uint32_t exchange = 0;
-  Bytes data;  // a container, or a chunk of one
+  Bytes data;  ///< a container, or a chunk of one
 };
 
 /// What the robot's exchanges need to know of its radio.
@@ -75,20 +75,23 @@ struct RadioRoom {
   double frame_seconds = 0.0;     // that a whole frame takes to the station; 0: not known yet
 };
 
-/// Orders what one robot sends of its frames: a byte budget, the newest frame first, pieces at an
-/// even pace, and nothing predicted from a reference that the station has not got. A state machine
-/// without a clock or threads of its own; `now` is any steady time in nanoseconds. Memory is
-/// bounded whatever receipts say: they come over the radio and are untrusted.
+/// Decides when one robot's frames are encoded and sent. It keeps a byte budget, sends the newest
+/// frame first and in chunks at an even pace, and sends nothing that is predicted from a reference
+/// which the station lacks.
 ///
-/// On a narrow radio (with a bandwidth, or where receipts take long) a frame waits until what was
-/// sent before it is through: of each kind (whole, sparse) only the newest waits, and it is encoded
-/// as late as possible. Without a bandwidth the receipts tell how fast the radio is. Messages of
-/// the exchange are never held back: they are counted (spent) and frames make room for them.
+/// On a narrow radio (with a bandwidth, or where receipts take long) a frame waits until the frame
+/// before it is through. Of each kind (whole, sparse) only the newest frame waits, and it is
+/// encoded as late as possible. Without a bandwidth the receipts tell how fast the radio is.
+/// Messages of the exchange are never held back: they are counted (spent) and frames make room for
+/// them.
+///
+/// Errors: receipts come over the radio; whatever they say, memory is bounded.
+/// Threads: none of its own, and no clock; one thread at a time.
 class SendQueue {
  public:
   explicit SendQueue(SendQueueOptions options);
 
-  /// Other figures for the same options.
+  /// Changes bandwidth and frame_rate of the options.
   void set_rate(double bandwidth, double frame_rate);
 
   /// Takes a frame up. Returns the frames that gave way and will not be sent.
@@ -118,7 +121,8 @@ class SendQueue {
   bool is_narrow() const {
     return limited() || (delivery_rate_ > 0.0 && usual_bytes_ > kSlow * delivery_rate_);
   }
-  std::size_t repeated() const { return repeated_; }  // frames, so far
+  /// Frames that were sent again so far.
+  std::size_t repeated() const { return repeated_; }
   /// The station did send receipts, and sends none any more.
   bool receipts_ceased(SteadyTime now) const {
     return options_.receipt_timeout > 0 && last_receipt_ && !hears_receipts(now);
@@ -188,11 +192,11 @@ class SendQueue {
   std::optional<SteadyTime> last_receipt_;
   std::deque<Reference> awaited_;  // oldest first
   double receipt_seconds_ = 0.0;   // from handing a frame over to its receipt, smoothed
-  double whole_seconds_ = 0.0;     // from encoding a whole frame on, likewise
-  double usual_bytes_ = 0.0;       // of a frame that is not coarsened, likewise
+  double whole_seconds_ = 0.0;     // from encoding a whole frame to its receipt [s], smoothed
+  double usual_bytes_ = 0.0;       // of a frame that is not coarsened [bytes], smoothed
   SteadyTime acknowledged_at_;
-  double delivery_rate_ = 0.0;      // bytes a second, likewise; 0: not known
-  double reference_seconds_ = 0.0;  // that receipts of references take, likewise
+  double delivery_rate_ = 0.0;      // [bytes/s], smoothed; 0: not known
+  double reference_seconds_ = 0.0;  // until the receipt of a reference comes [s], smoothed
   double control_per_frame_ = 0.0;  // bytes of other messages between frames, smoothed
   std::size_t control_ = 0;         // since the last frame
   std::size_t longest_control_ = 0;

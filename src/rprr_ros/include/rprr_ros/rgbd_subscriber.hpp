@@ -48,8 +48,8 @@ class RgbdSubscriber {
   std::deque<sensor_msgs::ImageConstPtr> waiting_rgb_;
   std::deque<sensor_msgs::ImageConstPtr> waiting_depth_;
   sensor_msgs::CameraInfoConstPtr info_;
-  ros::Time last_stamp_;                                          // of a pair
-  ros::SteadyTime last_arrival_;                                  // of it
+  ros::Time last_stamp_;                                          // of the last pair
+  ros::SteadyTime last_arrival_;                                  // of the last pair
   std::uint64_t rgb_seen_ = 0, depth_seen_ = 0, pairs_seen_ = 0;  // since the last look
   image_transport::ImageTransport transport_;
   image_transport::Subscriber rgb_subscriber_;

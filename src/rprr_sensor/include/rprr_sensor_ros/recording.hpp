@@ -40,7 +40,7 @@ struct RecordingOptions {
   double depth_unit = 0.0002;          // metres per count that 32FC1 depth of a bag becomes
   std::optional<Camera> camera;        // instead of what the source says
   std::string colour_topic;            // of a bag; empty: found by its name
-  std::string depth_topic;             // likewise
+  std::string depth_topic;             // of a bag; empty: found by its name
 };
 
 /// Opens a folder (open_tum_folder) or a bag of one camera. Of a bag's image topics these are

@@ -39,7 +39,7 @@ struct ColourSensorModel {
 DepthFrame sense_depth(const ExactView& view, const Camera& camera, const DepthSensorModel& model,
                        std::uint32_t seed);
 
-/// Colour as the sensor gives it, CV_8UC3 (BGR, gamma-coded). Deterministic likewise.
+/// Colour as the sensor gives it, CV_8UC3 (BGR, gamma-coded). The same input gives the same output.
 cv::Mat sense_colour(const ExactView& view, const ColourSensorModel& model, std::uint32_t seed);
 
 /// An RGB-D camera: its geometry and its faults.

@@ -36,8 +36,8 @@ class BaseFusion {
     cv::Mat difference;  // CV_32FC4: base minus prediction
     cv::Mat joint;       // CV_32FC4: what to add to the prediction, then the estimate itself
     cv::Mat energy;      // CV_32FC1, of the next coarser size: mean square of the octave
-    cv::Mat signal;      // CV_32FC1, likewise: of prediction or base, whichever has more
-    cv::Mat share;       // CV_32FC1, likewise: how much of the difference counts
+    cv::Mat signal;      // CV_32FC1: signal energy of prediction or base, whichever has more
+    cv::Mat share;       // CV_32FC1: how much of the difference counts, 0 to 1
   };
 
   void compare(const BaseImage& base, std::size_t base_level, std::size_t coarsest,

@@ -66,7 +66,7 @@ class ViewSynthesizer {
   cv::Mat a_brightness_, brightness_, valid_, wanted_;  // of a quarter of the size
   std::vector<std::uint16_t> sums_;
   cv::Mat rows_;    // CV_32FC1, a few rows of numbers
-  cv::Mat places_;  // CV_32SC1, likewise
+  cv::Mat places_;  // CV_32SC1, kept between calls
   cv::Mat shows_;   // CV_8UC1, a row of flags
 };
 

@@ -25,7 +25,7 @@ struct ConsistencyOptions {
   int pairs_per_scene = 4;
   double max_degrees = 15.0;  // of the motion, about any axis
   double max_metres = 0.3;    // of the motion, in any direction
-  int width = 640;            // pixels; the height is 3/4 of it
+  int width = 640;            // [px]; the height is 3/4 of the width
 };
 
 /// Two frames with exact truth.
@@ -46,7 +46,7 @@ struct PoseTrial {
   PoseVerdict verdict;
   PoseError error;
   Twist perturbation = Twist::Zero();    // log(M_est M_true^-1): tx ty tz rx ry rz
-  Matrix6 covariance = Matrix6::Zero();  // of it, as the protocol states it
+  Matrix6 covariance = Matrix6::Zero();  // of the error, as the protocol states it
 
   bool accepted() const { return verdict.accepted(); }
 };
@@ -86,7 +86,7 @@ struct ConsistencySummary {
   double p95_metres = 0.0, p95_degrees = 0.0;
   NormalisedErrors all, translation, rotation;
   Twist mean = Twist::Zero();  // of each component over its own sigma: 0 without a bias
-  Twist rms = Twist::Zero();   // likewise: 1 if its sigma is right
+  Twist rms = Twist::Zero();   // of each component over its own sigma: 1 if the sigmas are right
 };
 ConsistencySummary summarise(const std::vector<PoseTrial>& trials);
 

@@ -20,7 +20,7 @@ struct TurntableOptions {
   std::uint32_t first_seed = 1;
   double step_degrees = 5.0;
   double last_degrees = 60.0;
-  int width = 640;  // pixels; the height is 3/4 of it
+  int width = 640;  // [px]; the height is 3/4 of the width
 };
 
 /// A table of 0.35 m radius with its top at z = 0 of the world, and boxes, cylinders and spheres of
@@ -48,8 +48,8 @@ struct TurntablePoint {
   int converged = 0;  // by the method's own word
   int accepted = 0;
   double rms_metres = 0.0, rms_degrees = 0.0;        // over all trials
-  double median_metres = 0.0, median_degrees = 0.0;  // likewise
-  double mean_iterations = 0.0;                      // likewise
+  double median_metres = 0.0, median_degrees = 0.0;  // over all trials
+  double mean_iterations = 0.0;                      // over all trials
   int max_iterations = 0;
 };
 

@@ -96,8 +96,8 @@ class DeviceSession {
   FramePairing pairing_;
   std::uint64_t times_opened_ = 0;
   Duration retry_ = 0;
-  SteadyTime next_try_;   // steady
-  SteadyTime opened_at_;  // steady, likewise the rest
+  SteadyTime next_try_;   // when a device is looked for again
+  SteadyTime opened_at_;  // when the device was opened
   SteadyTime last_colour_;
   SteadyTime last_depth_;
   SteadyTime pace_checked_;

@@ -38,7 +38,7 @@ struct DeviceImage {
 /// How the streams are to run.
 struct DeviceModes {
   int width = 640;   // pixels of both images
-  int height = 480;  // likewise
+  int height = 480;  // of colour and depth [px]
   int rate = 30;     // frames per second of both streams
   RegistrationChoice registration = RegistrationChoice::automatic;
 };
@@ -48,7 +48,7 @@ struct DeviceControls {
   bool auto_exposure = true;
   bool auto_white_balance = true;
   int exposure = 0;  // in the device's units, without auto_exposure; 0: as it is
-  int gain = 0;      // likewise
+  int gain = 0;      // in the device's units, without auto_exposure; 0: as it is
 };
 
 /// An RGB-D camera that streams. One thread uses it. Destruction stops and closes it.

@@ -19,7 +19,7 @@ struct RgbdEntry {
   Stamp stamp = 0;                        // of the colour image; names the entry
   Stamp depth_stamp = 0;                  // of the depth image
   std::string colour_path;                // absolute, or relative to the working directory
-  std::string depth_path;                 // likewise
+  std::string depth_path;                 // absolute, or relative to the working directory
   std::optional<Pose> world_from_camera;  // optical frame into the world, where known
 };
 
