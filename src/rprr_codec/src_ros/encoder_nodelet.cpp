@@ -257,12 +257,12 @@ class EncoderNodelet : public nodelet::Nodelet {
   }
 
   void tell_state() {
-    RadioRoom room;
+    LinkState link;
     double backlog = 0.0;
     bool ceased = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      room = queue_->room(steady_now());
+      link = queue_->link_state(steady_now());
       backlog = queue_->backlog(steady_now());
       ceased = queue_->receipts_ceased(steady_now());
       health_->show("frames repeated", std::to_string(queue_->repeated()));
@@ -272,15 +272,15 @@ class EncoderNodelet : public nodelet::Nodelet {
                     "the station sends no receipts on /station/receipts any more, so next to "
                     "nothing is sent to it: look at the station and at the radio");
     }
-    const bool same = room.ready == told_.ready && room.references == told_.references;
+    const bool same = link.has_room == told_.has_room && link.references == told_.references;
     const SteadyTime now = steady_now();
     if (same && now - told_at_ < kTellAgain) return;
     told_at_ = now;
-    told_ = room;
+    told_ = link;
     rprr_msgs::RadioState state;
-    state.ready = room.ready ? 1 : 0;
-    for (const Stamp stamp : room.references) state.references.push_back(to_time(stamp));
-    state.frame_seconds = static_cast<float>(room.frame_seconds);
+    state.ready = link.has_room ? 1 : 0;
+    for (const Stamp stamp : link.references) state.references.push_back(to_time(stamp));
+    state.frame_seconds = static_cast<float>(link.frame_seconds);
     state.backlog = static_cast<float>(backlog);
     state_.publish(state);
     health_->show("seconds of backlog", std::to_string(backlog));
@@ -296,7 +296,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   std::uint64_t last_ticket_ = 0;
   std::unique_ptr<FrameEncoder> next_encoder_;  // after a reconfiguration
   std::unique_ptr<FrameEncoder> encoder_;       // worker thread
-  RadioRoom told_;
+  LinkState told_;
   SteadyTime told_at_;
   ros::Publisher publisher_;
   ros::Publisher state_;

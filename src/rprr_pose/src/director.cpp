@@ -91,8 +91,8 @@ void Director::tick(SteadyTime now, RoleOutput& out) {
   }
 }
 
-void Director::set_radio(const RadioState& radio, SteadyTime, RoleOutput&) {
-  radio_ = radio;
+void Director::set_link_state(const LinkState& link, SteadyTime, RoleOutput&) {
+  link_ = link;
 }
 
 // How long to wait for a frame that is about to arrive.
@@ -102,7 +102,7 @@ Duration Director::patience() const {
 
 // A frame that is sent now would be at the station late.
 bool Director::is_slow() const {
-  return !radio_.ready || radio_.frame_seconds > kSlowFrame;
+  return !link_.has_room || link_.frame_seconds > kSlowFrame;
 }
 
 // The frame for a preview of that stamp; null if there is none yet.
@@ -118,8 +118,8 @@ RgbdFramePtr Director::choose(Stamp stamp) const {
 RgbdFramePtr Director::last_sent(SteadyTime now) {
   while (!sent_.empty() && now - sent_.front().at > options_.reference_age) sent_.pop_front();
   const auto held = std::find_if(sent_.rbegin(), sent_.rend(), [this](const Sent& sent) {
-    return std::find(radio_.references.begin(), radio_.references.end(), sent.frame->stamp) !=
-           radio_.references.end();
+    return std::find(link_.references.begin(), link_.references.end(), sent.frame->stamp) !=
+           link_.references.end();
   });
   if (held != sent_.rend()) return held->frame;
   return sent_.empty() ? nullptr : sent_.back().frame;
@@ -130,7 +130,7 @@ void Director::answer(const Question& question, SteadyTime deadline, SteadyTime 
   const RgbdFramePtr frame = choose(question.message.stamp);
   // What the station holds already serves at once. Meanwhile a new one is on its way.
   const RgbdFramePtr held = is_slow() ? last_sent(now) : nullptr;
-  if (held && frame && radio_.ready) send_whole(question, frame, now, out);
+  if (held && frame && link_.has_room) send_whole(question, frame, now, out);
   if (held || frame) return answer_with(question, held ? held : frame, frame, now, out);
   question.dependent.early_deadline = deadline;
   question.dependent.early = question.message;

@@ -93,10 +93,10 @@ void ExchangeStage::tick(SteadyTime now, RoleOutput& out) {
 }
 
 // A frame that waited for the radio is asked about at one reference, too.
-void ExchangeStage::set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) {
-  RadioState left = radio;
+void ExchangeStage::set_link_state(const LinkState& link, SteadyTime now, RoleOutput& out) {
+  LinkState left = link;
   const Action set = [&](ExchangeRole& role, RoleOutput& output) {
-    role.set_radio(left, now, output);
+    role.set_link_state(left, now, output);
   };
   drive(director_, out, set);
   for (Peer* peer : in_turn()) {
@@ -105,7 +105,7 @@ void ExchangeStage::set_radio(const RadioState& radio, SteadyTime now, RoleOutpu
     drive(peer->as_dependent, out, set);
     if (!use_previews_ || out.send.size() == before) continue;
     ++turn_;
-    left.ready = false;
+    left.has_room = false;
   }
 }
 

@@ -27,7 +27,7 @@ class PreviewDependent final : public ExchangeRole {
 
   void offer(const RgbdFramePtr& frame, SteadyTime now, RoleOutput& out) override {
     if (!active_ || exchange_ || (last_start_ && now - *last_start_ < options_.min_period)) return;
-    if (!radio_ready_) {
+    if (!has_room_) {
       waiting_ = frame;
       return;
     }
@@ -39,9 +39,9 @@ class PreviewDependent final : public ExchangeRole {
     if (!active_) waiting_.reset();
   }
 
-  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override {
-    radio_ready_ = radio.ready;
-    if (radio_ready_ && waiting_ && !exchange_) begin(waiting_, now, out);
+  void set_link_state(const LinkState& link, SteadyTime now, RoleOutput& out) override {
+    has_room_ = link.has_room;
+    if (has_room_ && waiting_ && !exchange_) begin(waiting_, now, out);
   }
 
   void receive(const std::string& peer, const PoseMessage& message, SteadyTime,
@@ -140,7 +140,7 @@ class PreviewDependent final : public ExchangeRole {
   const PreviewOptions options_;
   std::optional<Exchange> exchange_;
   bool active_ = true;
-  bool radio_ready_ = true;
+  bool has_room_ = true;
   RgbdFramePtr waiting_;  // the newest frame, for when the radio is ready
   std::optional<Camera> peer_camera_;
   std::uint32_t camera_sent_ = 0;  // hash of the own camera that the reference is known to know

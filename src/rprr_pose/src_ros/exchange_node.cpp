@@ -139,13 +139,13 @@ void ExchangeNode::on_message(const std::string& peer,
 }
 
 void ExchangeNode::on_radio(const rprr_msgs::RadioStateConstPtr& message) {
-  RadioState radio;
-  radio.ready = message->ready != 0;
-  radio.frame_seconds = static_cast<double>(message->frame_seconds);
-  for (const ros::Time& stamp : message->references) radio.references.push_back(to_stamp(stamp));
-  worker_->post([this, radio] {
+  LinkState link;
+  link.has_room = message->ready != 0;
+  link.frame_seconds = static_cast<double>(message->frame_seconds);
+  for (const ros::Time& stamp : message->references) link.references.push_back(to_stamp(stamp));
+  worker_->post([this, link] {
     radio_told_ = steady_now();
-    drive([&](RoleOutput& out) { stage_->set_radio(radio, steady_now(), out); });
+    drive([&](RoleOutput& out) { stage_->set_link_state(link, steady_now(), out); });
   });
 }
 
@@ -177,7 +177,7 @@ void ExchangeNode::on_tick() {
   // An encoder that is gone must not keep exchanges from beginning.
   if (radio_told_ && steady_now() - *radio_told_ > kRadioSilence) {
     radio_told_.reset();
-    drive([&](RoleOutput& out) { stage_->set_radio({}, steady_now(), out); });
+    drive([&](RoleOutput& out) { stage_->set_link_state({}, steady_now(), out); });
   }
   drive([&](RoleOutput& out) { stage_->tick(steady_now(), out); });
 }

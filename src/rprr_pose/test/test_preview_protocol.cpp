@@ -169,14 +169,14 @@ TEST_F(PreviewProtocol, AReferenceWithoutAFrameStaysSilent) {
 }
 
 TEST_F(PreviewProtocol, WithoutRoomOnTheRadioBWaitsAndBeginsWithItsNewestFrame) {
-  dependent->set_radio({false, {}, 0.0}, {}, at_b);
+  dependent->set_link_state({false, {}, 0.0}, {}, at_b);
   for (Stamp stamp = 1000; stamp < 1003; ++stamp)
     dependent->offer(frame_b(stamp), SteadyTime(stamp), at_b);
   EXPECT_TRUE(at_b.send.empty());
-  dependent->set_radio({true, {}, 0.0}, SteadyTime(1010), at_b);
+  dependent->set_link_state({true, {}, 0.0}, SteadyTime(1010), at_b);
   ASSERT_EQ(at_b.send.size(), 1u);
   EXPECT_EQ(std::get<PreviewMessage>(at_b.send[0]).stamp, 1002);
-  dependent->set_radio({true, {}, 0.0}, SteadyTime(1011), at_b);
+  dependent->set_link_state({true, {}, 0.0}, SteadyTime(1011), at_b);
   EXPECT_EQ(at_b.send.size(), 1u) << "one exchange at a time";
 }
 
@@ -194,7 +194,7 @@ class BusyReference : public PreviewProtocol {
 };
 
 TEST_F(BusyReference, RefersToWhatTheStationHolds) {
-  reference->set_radio({false, {1000}, 0.0}, now, at_a);
+  reference->set_link_state({false, {1000}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
   EXPECT_EQ(pose().stamp, 1000);
@@ -206,13 +206,13 @@ TEST_F(BusyReference, RefersToWhatTheStationHolds) {
 }
 
 TEST_F(BusyReference, OrToTheLastThatWasSent) {
-  reference->set_radio({false, {}, 0.0}, now, at_a);
+  reference->set_link_state({false, {}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 2000);
 }
 
 TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
-  reference->set_radio({true, {1000, 2000}, 3.0}, now, at_a);
+  reference->set_link_state({true, {1000, 2000}, 3.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 2000) << "the station holds it";
   ASSERT_EQ(at_a.decisions.size(), 2u);
@@ -221,7 +221,7 @@ TEST_F(BusyReference, OnASlowRadioANewOneGoesOutForLater) {
 }
 
 TEST_F(BusyReference, ButNotToAnOldOne) {
-  reference->set_radio({false, {1000}, 0.0}, now, at_a);
+  reference->set_link_state({false, {1000}, 0.0}, now, at_a);
   now = SteadyTime(kAge + 1);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 3000);
@@ -229,7 +229,7 @@ TEST_F(BusyReference, ButNotToAnOldOne) {
 }
 
 TEST_F(BusyReference, WithRoomItSendsANewOne) {
-  reference->set_radio({true, {1000, 2000}, 0.0}, now, at_a);
+  reference->set_link_state({true, {1000, 2000}, 0.0}, now, at_a);
   exchange(3000);
   EXPECT_EQ(pose().stamp, 3000);
 }

@@ -310,18 +310,18 @@ double SendQueue::backlog(SteadyTime now) {
   return debt + static_cast<double>(bytes_left()) / rate_.steady_rate();
 }
 
-RadioRoom SendQueue::room(SteadyTime now) {
-  RadioRoom room;
-  room.frame_seconds = whole_seconds_;
-  if (is_narrow()) room.ready = queue_.empty() && outgoing_.empty() && !encoding_;
-  if (limited() && now < rate_.room_at(longest_control_, now)) room.ready = false;
-  if (window_is_full(now)) room.ready = false;
+LinkState SendQueue::link_state(SteadyTime now) {
+  LinkState link;
+  link.frame_seconds = whole_seconds_;
+  if (is_narrow()) link.has_room = queue_.empty() && outgoing_.empty() && !encoding_;
+  if (limited() && now < rate_.room_at(longest_control_, now)) link.has_room = false;
+  if (window_is_full(now)) link.has_room = false;
   if (hears_receipts(now)) {
-    room.references = held_.at(options_.robot);
+    link.references = held_.at(options_.robot);
   } else {
-    room.references.assign(own_sent_.begin(), own_sent_.end());
+    link.references.assign(own_sent_.begin(), own_sent_.end());
   }
-  return room;
+  return link;
 }
 
 }  // namespace rprr

@@ -95,7 +95,7 @@ TEST(SendQueue, AnyTwoSecondsKeepToTheBandwidthAndUseIt) {
   };
   SteadyTime now = kStart;
   for (; now < kStart + from_seconds(60.0); now += 3 * kMillisecond) {
-    if (queue.room(now).ready) {  // as the exchange does: a preview, then the frame
+    if (queue.link_state(now).has_room) {  // as the exchange does: a preview, then the frame
       queue.spent(2300, now);
       count(now, 2300.0);
       queue.offer(whole(stamp++), now);
@@ -142,7 +142,7 @@ TEST(SendQueue, WithALimitOnlyTheNewestWaitsAndIsEncodedLate) {
   }
   EXPECT_EQ(dropped.size(), 7u);
   EXPECT_FALSE(queue.next_to_encode(kStart)) << "the radio is busy";
-  EXPECT_FALSE(queue.room(kStart).ready);
+  EXPECT_FALSE(queue.link_state(kStart).has_room);
   EXPECT_NEAR(queue.backlog(kStart), 30000.0 / 18000.0, 0.3);
   SteadyTime now = kStart;
   std::vector<SendOrder> sent;
@@ -249,16 +249,16 @@ TEST(SendQueue, BeginsNothingWhileFramesAreOnTheirWayUnacknowledged) {
   queue.receipt("b", {}, {}, 0, kStart);
   queue.offer(whole(1), kStart);
   pump(queue, kStart);
-  EXPECT_FALSE(queue.room(kStart).ready) << "one at a time until the radio is known";
+  EXPECT_FALSE(queue.link_state(kStart).has_room) << "one at a time until the radio is known";
   SteadyTime now = kStart + 10 * kMillisecond;
   queue.receipt("b", {1}, {}, 1, now);
-  EXPECT_EQ(queue.room(now).references, std::vector<Stamp>{1});
+  EXPECT_EQ(queue.link_state(now).references, std::vector<Stamp>{1});
   for (Stamp stamp = 2; stamp <= 4; ++stamp) {
-    EXPECT_TRUE(queue.room(now).ready);
+    EXPECT_TRUE(queue.link_state(now).has_room);
     queue.offer(whole(stamp), now);
     EXPECT_EQ(pump(queue, now).size(), 1u);
   }
-  EXPECT_FALSE(queue.room(now).ready);
+  EXPECT_FALSE(queue.link_state(now).has_room);
   queue.offer(whole(5), now);
   EXPECT_TRUE(pump(queue, now).empty());
   queue.receipt("b", {1, 2}, {}, 2, now + kMillisecond);
@@ -271,7 +271,7 @@ TEST(SendQueue, LostFramesDoNotBlockTheRadioForGood) {
   pump(queue, kStart);
   const SteadyTime later = kStart + from_seconds(4.5);
   queue.receipt("b", {}, {}, 0, later - kMillisecond);
-  EXPECT_TRUE(queue.room(later).ready);
+  EXPECT_TRUE(queue.link_state(later).has_room);
 }
 
 TEST(SendQueue, ALostFrameDoesNotMakeTheRadioSeemNarrow) {
@@ -298,9 +298,9 @@ TEST(SendQueue, ANewListenerIsNotWaitedForInVain) {
   queue.receipt("b", {}, {}, 0, kStart);
   for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
   pump(queue, kStart);
-  EXPECT_FALSE(queue.room(kStart).ready);
+  EXPECT_FALSE(queue.link_state(kStart).has_room);
   queue.listener_joined();
-  EXPECT_TRUE(queue.room(kStart).ready);
+  EXPECT_TRUE(queue.link_state(kStart).has_room);
 }
 
 // A radio of so many bytes a second, whose receipts come as soon as a frame is through.
@@ -335,7 +335,7 @@ TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
   int delivered = 0;
   for (SteadyTime now = kStart; now < kStart + from_seconds(60.0); now += 10 * kMillisecond) {
     radio.deliver(queue, now);
-    if (queue.room(now).ready) queue.offer(whole(stamp++), now);
+    if (queue.link_state(now).has_room) queue.offer(whole(stamp++), now);
     while (const auto order = queue.next_to_encode(now)) {
       const std::size_t least = 8000;  // depth
       const std::size_t usual = 40000;
@@ -389,7 +389,7 @@ TEST(SendQueue, WithoutReceiptsWhatWasSentCanBeReferredTo) {
   SendQueue queue(options_of(0.0));
   for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
   pump(queue, kStart);
-  EXPECT_EQ(queue.room(kStart).references, (std::vector<Stamp>{2, 3}));
+  EXPECT_EQ(queue.link_state(kStart).references, (std::vector<Stamp>{2, 3}));
 }
 
 TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
@@ -404,7 +404,7 @@ TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
     ASSERT_EQ(sent.size(), 2u);
     EXPECT_EQ(sent[1].data[0], 1) << "sparse as it was";
     queue.receipt("b", {stamp}, {}, stamp, now + from_seconds(1.9));  // slow ones
-    EXPECT_TRUE(queue.room(now + from_seconds(1.9)).ready);
+    EXPECT_TRUE(queue.link_state(now + from_seconds(1.9)).has_room);
   }
   EXPECT_FALSE(queue.is_narrow());
 }
@@ -416,7 +416,7 @@ TEST(SendQueue, ReceiptsOfAnybodyAndOfAnyLengthTakeNoMemory) {
     queue.receipt("robot" + std::to_string(i), many, many, 42, kStart + i);
   }
   queue.receipt("b", many, many, 42, kStart + 5000);
-  EXPECT_LE(queue.room(kStart + 6000).references.size(), 64u);
+  EXPECT_LE(queue.link_state(kStart + 6000).references.size(), 64u);
 }
 
 }  // namespace

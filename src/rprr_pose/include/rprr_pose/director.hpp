@@ -35,7 +35,7 @@ class Director final : public ExchangeRole {
   void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override;
   void tick(SteadyTime now, RoleOutput& out) override;
-  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override;
+  void set_link_state(const LinkState& link, SteadyTime now, RoleOutput& out) override;
 
  private:
   /// What the director knows of one robot that asks it.
@@ -85,7 +85,7 @@ class Director final : public ExchangeRole {
   const std::string name_;
   const PreviewOptions options_;
   const PosePrior prior_;
-  RadioState radio_;
+  LinkState link_;
   std::deque<Sent> sent_;  // oldest first
   RecentFrames frames_;
   PreviewPoseEstimator estimator_;

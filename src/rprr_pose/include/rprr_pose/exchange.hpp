@@ -12,6 +12,7 @@
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_geometry/steady_time.hpp"
 #include "rprr_pose/messages.hpp"
+#include "rprr_radio/link_state.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/preview.hpp"
 
@@ -61,14 +62,6 @@ struct RoleOutput {
   std::vector<MessageProblem> problems;  ///< hostile or unexpected input, for diagnostics
 };
 
-/// What a role needs to know of its robot's radio.
-struct RadioState {
-  bool ready = true;              ///< a frame more can be sent
-  std::vector<Stamp> references;  ///< own whole frames that the station holds or was sent, newest
-                                  ///< last
-  double frame_seconds = 0.0;     ///< that a whole frame takes to the station [s]; 0: not known
-};
-
 /// One robot's side of its exchanges, as reference or as dependent: a pure state machine. Frames,
 /// messages and the time (any monotonic clock, nanoseconds) go in; messages and decisions come out.
 /// Nodelets, rprr_eval and tests drive the same objects. One thread at a time.
@@ -84,7 +77,7 @@ class ExchangeRole {
   /// Time passes; call it a few times per timeout.
   virtual void tick(SteadyTime now, RoleOutput& out) = 0;
   /// The radio has room, or has not. Roles that do not pace themselves ignore it.
-  virtual void set_radio(const RadioState& /*radio*/, SteadyTime /*now*/, RoleOutput& /*out*/) {}
+  virtual void set_link_state(const LinkState& /*link*/, SteadyTime /*now*/, RoleOutput& /*out*/) {}
   /// An inactive role begins nothing of its own accord. It still answers, and what is under way
   /// ends as it would. Roles are active at first.
   virtual void set_active(bool /*active*/) {}

@@ -53,7 +53,7 @@ class ExchangeStage final : public ExchangeRole {
   void receive(const std::string& peer, const PoseMessage& message, SteadyTime now,
                RoleOutput& out) override;
   void tick(SteadyTime now, RoleOutput& out) override;
-  void set_radio(const RadioState& radio, SteadyTime now, RoleOutput& out) override;
+  void set_link_state(const LinkState& link, SteadyTime now, RoleOutput& out) override;
 
  private:
   struct Part {

@@ -12,6 +12,7 @@
 #include "rprr_geometry/option_table.hpp"
 #include "rprr_geometry/stamp.hpp"
 #include "rprr_geometry/steady_time.hpp"
+#include "rprr_radio/link_state.hpp"
 #include "rprr_radio/rate_limit.hpp"
 #include "rprr_wire/bytes.hpp"
 
@@ -67,14 +68,6 @@ struct SendOrder {
   Bytes data;  ///< a container, or a chunk of one
 };
 
-/// What the robot's exchanges need to know of its radio.
-struct RadioRoom {
-  bool ready = true;              // a frame more can be sent; if not, begin nothing
-  std::vector<Stamp> references;  // own whole frames that the station holds, oldest first; where
-                                  // it sends no receipts, those sent
-  double frame_seconds = 0.0;     // that a whole frame takes to the station; 0: not known yet
-};
-
 /// Decides when one robot's frames are encoded and sent. It keeps a byte budget, sends the newest
 /// frame first and in chunks at an even pace, and sends nothing that is predicted from a reference
 /// which the station lacks.
@@ -113,7 +106,7 @@ class SendQueue {
   /// What to send now, if anything; call until there is none.
   std::optional<SendOrder> next_to_send(SteadyTime now);
 
-  RadioRoom room(SteadyTime now);
+  LinkState link_state(SteadyTime now);
   /// Seconds until everything that is encoded is sent.
   double backlog(SteadyTime now);
   std::size_t waiting() const { return queue_.size(); }
