@@ -20,7 +20,7 @@ std::vector<BeliefSample> drawn(const BeliefModel& model, int count) {
     BeliefSample sample;
     sample.evidence.correlation = 0.95 * unit(random);
     sample.evidence.fine_correlation = 0.8 * unit(random);
-    sample.evidence.odd = 0.3 * unit(random);
+    sample.evidence.outliers = 0.3 * unit(random);
     sample.evidence.violating = 0.1 * unit(random);
     sample.evidence.margin = 0.3 * unit(random);
     sample.right = unit(random) < 1.0 / (1.0 + std::exp(-model.log_odds(sample.evidence)));
@@ -38,7 +38,7 @@ TEST(Belief, TheFitFindsTheOddsThatSamplesWereDrawnWith) {
   PoseEvidence middle;
   middle.correlation = 0.5;
   middle.fine_correlation = 0.4;
-  middle.odd = 0.15;
+  middle.outliers = 0.15;
   middle.violating = 0.05;
   middle.margin = 0.15;
   EXPECT_NEAR(found.log_odds(middle), truth.log_odds(middle), 0.15);

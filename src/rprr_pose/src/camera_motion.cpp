@@ -29,7 +29,7 @@ constexpr double kMostViolating = 0.06;
 constexpr double kMargin = 0.3;
 constexpr double kLeastEvidence = 1.0;  // log odds
 constexpr double kLeastTexture = 4.0;   // grey levels: with less luma does not tell
-constexpr double kLeastShared = 0.2;
+constexpr double kLeastOverlap = 0.2;
 constexpr double kTurn = 9.0 * kDegree;  // between starts
 
 // Both frames at block resolution and coarser; the earlier is the fixed one.
@@ -78,18 +78,18 @@ bool follow(const Views& views, Found& found) {
   return align(points_of(views.later[0], 2), fixed, options, found.later_to_earlier, found.sums);
 }
 
-double shared(const Found& found) {
-  return std::min(found.forth.shared(), found.back.shared());
+double overlap(const Found& found) {
+  return std::min(found.forth.overlap(), found.back.overlap());
 }
 
 // The evidence is that of poses between two robots. There is no rival to hold this motion against:
 // that it was found near where the camera was stands for the margin. Without texture, or colour at
 // all, depth has to do.
 bool explains(const Found& found) {
-  if (shared(found) < kLeastShared) return false;
+  if (overlap(found) < kLeastOverlap) return false;
   const PoseEvidence evidence = evidence_of(found.forth, found.back, kMargin);
-  const double consistent = std::min(found.forth.of_shared(found.forth.consistent),
-                                     found.back.of_shared(found.back.consistent));
+  const double consistent = std::min(found.forth.of_overlap(found.forth.consistent),
+                                     found.back.of_overlap(found.back.consistent));
   if (consistent < kFewestConsistent || evidence.violating > kMostViolating) return false;
   const bool flat = std::min(found.forth.texture, found.back.texture) < kLeastTexture;
   return flat || log_odds(evidence) >= kLeastEvidence;
@@ -135,7 +135,7 @@ CameraMotion told_by(const Found& found) {
   out.later_from_earlier = found.later_to_earlier.inverse();
   out.metres = found.later_to_earlier.translation().norm();
   out.radians = rotation_angle(out.later_from_earlier.linear());
-  out.shared = shared(found);
+  out.overlap = overlap(found);
   const bool still = out.metres < kStillMetres + kSigmas * sigma_metres &&
                      out.radians < kStillRadians + kSigmas * sigma_radians;
   out.outcome = still ? CameraMotion::Outcome::kStill : CameraMotion::Outcome::kMoved;

@@ -148,7 +148,7 @@ CoarseScore CoarseMatch::judge(const Eigen::Matrix3f& rotation, const Eigen::Vec
   const Lane correlation = (mf - m * f / n) / (variance_m * variance_f).sqrt();
   score.colour = correlation[0] + 0.5f * (correlation[1] + correlation[2]);
   score.depth = depths > 0.0f ? agree / depths : 0.3f;
-  score.shared = n / static_cast<float>(moving_.size());
+  score.overlap = n / static_cast<float>(moving_.size());
   return score;
 }
 

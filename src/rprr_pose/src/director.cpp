@@ -12,7 +12,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kSentKept = 8;               // frames, as references for later
-constexpr double kEnoughShared = 0.5;              // share of b's view, for an older reference
+constexpr double kEnoughOverlap = 0.5;             // share of b's view, for an older reference
 constexpr double kSlowFrame = 0.75;                // to the station [s]
 constexpr Duration kPatience = from_seconds(0.1);  // where another frame will do
 constexpr std::size_t kMostProposals = 4;  // of the prior; more would cost as much as a search
@@ -163,9 +163,9 @@ void Director::answer_with(const Question& question, const RgbdFramePtr& first,
   const auto preview = decode(content, wrong);
   RgbdFramePtr frame = first;
   Attempt attempt = try_frame(question, *first, content, preview);
-  if (second && second != first && attempt.shared < kEnoughShared) {
+  if (second && second != first && attempt.overlap < kEnoughOverlap) {
     Attempt other = try_frame(question, *second, content, preview);
-    if (other.shared > attempt.shared) {
+    if (other.overlap > attempt.overlap) {
       attempt = std::move(other);
       frame = second;
     }
@@ -234,7 +234,7 @@ std::string Director::estimate(const Question& question, const RgbdFrame& frame,
   if (found.sums.geometry > 0) {
     pose.residual = static_cast<float>(std::sqrt(found.sums.chi2_geometry / found.sums.geometry));
   }
-  if (found.verdict.accepted()) attempt.shared = found.b_in_a.shared();
+  if (found.verdict.accepted()) attempt.overlap = found.b_in_a.overlap();
   return {};
 }
 

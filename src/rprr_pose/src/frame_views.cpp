@@ -64,7 +64,8 @@ FixedView fine_view(const RgbdFrame& frame) {
   FixedView view;
   view.metres = metres_of(frame.depth);
   view.metres_camera = frame.camera;
-  // Without colour the cells' even grey serves: depth alone then has to do, and is not believed.
+  // Without colour the cells' even grey serves: depth alone then has to do, and is not enough to be
+  // accepted.
   if (frame.bgr.type() == CV_8UC3 && frame.bgr.size() == frame.depth.counts.size()) {
     view.luma = smooth_luma(frame.bgr, frame.camera, view.luma_camera);
   }

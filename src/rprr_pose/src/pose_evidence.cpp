@@ -17,7 +17,7 @@ constexpr std::array<PoseStatus, kEvidenceTerms> kCauses = {
     PoseStatus::kFreeSpaceViolated, PoseStatus::kAmbiguous};
 
 double odd_share(const Agreement& way) {
-  return 1.0 - way.of_shared(way.consistent + way.violating + way.hidden);
+  return 1.0 - way.of_overlap(way.consistent + way.violating + way.hidden);
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double ma
   PoseEvidence evidence;
   evidence.correlation = std::min(one.correlation, other.correlation);
   evidence.fine_correlation = std::min(one.fine_correlation, other.fine_correlation);
-  evidence.odd = std::max(odd_share(one), odd_share(other));
-  evidence.violating = std::max(one.of_shared(one.violating), other.of_shared(other.violating));
+  evidence.outliers = std::max(odd_share(one), odd_share(other));
+  evidence.violating = std::max(one.of_overlap(one.violating), other.of_overlap(other.violating));
   evidence.margin = margin;
   return evidence;
 }
@@ -35,7 +35,7 @@ PoseEvidence evidence_of(const Agreement& one, const Agreement& other, double ma
 std::array<double, kEvidenceTerms> terms_of(const PoseEvidence& evidence) {
   return {std::atanh(std::clamp(evidence.correlation, -0.98, 0.98)),
           std::atanh(std::clamp(evidence.fine_correlation, -0.9, 0.9)),
-          std::clamp(evidence.odd, 0.0, 0.3), std::clamp(evidence.violating, 0.0, 0.1),
+          std::clamp(evidence.outliers, 0.0, 0.3), std::clamp(evidence.violating, 0.0, 0.1),
           std::clamp(evidence.margin, 0.0, 0.3)};
 }
 

@@ -73,7 +73,7 @@ constexpr std::size_t kLogOddsCheck = 2;
 std::array<PoseCheck, 6> checks_of(const PreviewPose& pose, const PreviewLimits& limits) {
   return {
       {{PoseStatus::kLittleOverlap, PoseQuantity::kOverlap,
-        std::min(pose.b_in_a.shared(), pose.a_in_b.shared()), limits.min_overlap},
+        std::min(pose.b_in_a.overlap(), pose.a_in_b.overlap()), limits.min_overlap},
        {PoseStatus::kFreeSpaceViolated, PoseQuantity::kFreeSpace, pose.evidence.violating,
         limits.max_violating},
        {weakest_evidence(pose.evidence), PoseQuantity::kLogOdds, pose.log_odds,
@@ -98,9 +98,9 @@ void PreviewPoseEstimator::judge(Candidate& candidate) const {
   candidate.b_in_a = agreement(b_[0], a_[0], candidate.a_from_b);
   candidate.a_in_b = agreement(a_[0], b_[0], candidate.a_from_b.inverse());
   const auto one_way = [](const Agreement& way) {
-    const double agreement = way.of_shared(way.consistent - kViolatingWeight * way.violating -
-                                           kHiddenWeight * way.hidden);
-    return std::max(0.0, agreement) * std::pow(way.shared(), kOverlapPower);
+    const double agreement = way.of_overlap(way.consistent - kViolatingWeight * way.violating -
+                                            kHiddenWeight * way.hidden);
+    return std::max(0.0, agreement) * std::pow(way.overlap(), kOverlapPower);
   };
   const double geometry = 0.5 * (one_way(candidate.b_in_a) + one_way(candidate.a_in_b));
   const double colour = 0.5 * (candidate.b_in_a.correlation + candidate.b_in_a.fine_correlation);

@@ -11,7 +11,7 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr float kLeastShared = 0.12f;  // of the moving view's cells
+constexpr float kLeastOverlap = 0.12f;  // of the moving view's cells
 // Steps of the fixed camera along its axis, in units of the typical depth.
 constexpr std::array<float, 5> kForward = {0.0f, -0.3f, 0.3f, -0.55f, 0.6f};
 // Turns about the middle of the scene, degrees.
@@ -40,8 +40,8 @@ bool better(const Judged& left, const Judged& right) {
 }
 
 float score_of(const CoarseScore& found) {
-  if (found.shared < kLeastShared) return 0.0f;
-  return std::max(0.0f, 0.5f * found.colour + found.depth) * std::pow(found.shared, 0.3f);
+  if (found.overlap < kLeastOverlap) return 0.0f;
+  return std::max(0.0f, 0.5f * found.colour + found.depth) * std::pow(found.overlap, 0.3f);
 }
 
 Eigen::Matrix3d turn_of(double yaw, double pitch, double roll) {

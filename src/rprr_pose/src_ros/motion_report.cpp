@@ -78,7 +78,7 @@ void MotionReport::publish(const CameraMotion& motion, const RgbdFrame& frame,
   pose_to_fields(motion.later_from_earlier, message.translation, message.rotation);
   message.metres = static_cast<float>(motion.metres);
   message.degrees = static_cast<float>(degrees(motion));
-  message.shared = static_cast<float>(motion.shared);
+  message.shared = static_cast<float>(motion.overlap);
   publisher_.publish(message);
 }
 
@@ -92,10 +92,10 @@ void MotionReport::judge(const CameraMotion& motion, double seconds, const std::
     health_.warn("moved during an exchange",
                  "the newest frame does not fit to the one of the exchange with '" + peer +
                      "': the camera moved " + words + kRemedy);
-  } else if (motion.shared < stale_overlap_) {
+  } else if (motion.overlap < stale_overlap_) {
     health_.warn("moved during an exchange",
                  "during the exchange with '" + peer + "' the camera moved " + words +
-                     ", and shows " + std::to_string(std::lround(100.0 * motion.shared)) +
+                     ", and shows " + std::to_string(std::lround(100.0 * motion.overlap)) +
                      "% of what it showed" + kRemedy);
   }
 }

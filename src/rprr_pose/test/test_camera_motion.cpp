@@ -62,13 +62,13 @@ TEST_P(KnownMotions, AreRecovered) {
   EXPECT_LT(rotation_error(found.later_from_earlier, truth), 0.4);
   EXPECT_NEAR(found.metres, truth.inverse().translation().norm(), 0.015);
   EXPECT_NEAR(found.radians, rotation_angle(truth.linear()), 0.4 * M_PI / 180.0);
-  EXPECT_GT(found.shared, 0.3);
-  EXPECT_LE(found.shared, 1.0);
+  EXPECT_GT(found.overlap, 0.3);
+  EXPECT_LE(found.overlap, 1.0);
 
   const CameraMotion back = camera_motion(*later, *earlier);
   ASSERT_EQ(back.outcome, Outcome::kMoved);
   EXPECT_LT(translation_error(back.later_from_earlier.inverse(), found.later_from_earlier), 0.02);
-  EXPECT_NEAR(back.shared, found.shared, 0.05);
+  EXPECT_NEAR(back.overlap, found.overlap, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(CameraMotion, KnownMotions,
@@ -81,7 +81,7 @@ TEST(CameraMotion, OfAStillCameraIsNotReportedForItsNoise) {
   for (unsigned seed = 2; seed < 12; ++seed) {
     const CameraMotion found = camera_motion(*earlier, *noisy_frame(Pose::Identity(), seed));
     EXPECT_EQ(found.outcome, Outcome::kStill) << found.metres << " m " << found.radians;
-    EXPECT_GT(found.shared, 0.9);
+    EXPECT_GT(found.overlap, 0.9);
   }
 }
 
@@ -97,8 +97,8 @@ TEST(CameraMotion, SharesLessTheFurtherTheCameraTurned) {
   for (const double degrees : {1.0, 5.0, 10.0, 15.0}) {
     const CameraMotion found = camera_motion(*earlier, *noisy_frame(test_motion(0, degrees), 2));
     ASSERT_EQ(found.outcome, Outcome::kMoved) << degrees;
-    EXPECT_LT(found.shared, before);
-    before = found.shared;
+    EXPECT_LT(found.overlap, before);
+    before = found.overlap;
   }
 }
 

@@ -26,7 +26,7 @@ TEST(PoseEvidence, IsTheWorseOfBothWays) {
   const PoseEvidence evidence = evidence_of(agreeing(), worse, 0.4);
   EXPECT_DOUBLE_EQ(evidence.correlation, 0.8);
   EXPECT_DOUBLE_EQ(evidence.fine_correlation, 0.5);
-  EXPECT_NEAR(evidence.odd, 140.0 / 2000.0, 1e-12);
+  EXPECT_NEAR(evidence.outliers, 140.0 / 2000.0, 1e-12);
   EXPECT_NEAR(evidence.violating, 0.05, 1e-12);
   const PoseEvidence swapped = evidence_of(worse, agreeing(), 0.4);
   EXPECT_EQ(terms_of(swapped), terms_of(evidence));
@@ -42,7 +42,7 @@ TEST(PoseEvidence, EveryTermMovesBeliefItsWay) {
   };
   EXPECT_LT(with([](PoseEvidence& e) { e.correlation = 0.6; }), log_odds(good));
   EXPECT_LT(with([](PoseEvidence& e) { e.fine_correlation = 0.1; }), log_odds(good));
-  EXPECT_LT(with([](PoseEvidence& e) { e.odd = 0.2; }), log_odds(good));
+  EXPECT_LT(with([](PoseEvidence& e) { e.outliers = 0.2; }), log_odds(good));
   EXPECT_LT(with([](PoseEvidence& e) { e.violating = 0.08; }), log_odds(good));
   EXPECT_LT(with([](PoseEvidence& e) { e.margin = 0.0; }), log_odds(good));
 }
@@ -56,7 +56,7 @@ TEST(PoseEvidence, TheWeakestTermIsTheCause) {
   };
   EXPECT_EQ(cause([](PoseEvidence& e) { e.correlation = -0.5; }), PoseStatus::kColourDisagrees);
   EXPECT_EQ(cause([](PoseEvidence& e) { e.fine_correlation = 0.0; }), PoseStatus::kColourDisagrees);
-  EXPECT_EQ(cause([](PoseEvidence& e) { e.odd = 0.3; }), PoseStatus::kDepthDisagrees);
+  EXPECT_EQ(cause([](PoseEvidence& e) { e.outliers = 0.3; }), PoseStatus::kDepthDisagrees);
   EXPECT_EQ(cause([](PoseEvidence& e) { e.violating = 0.1; }), PoseStatus::kFreeSpaceViolated);
   EXPECT_EQ(cause([](PoseEvidence& e) { e.margin = 0.0; }), PoseStatus::kAmbiguous);
 }

@@ -29,8 +29,8 @@ void add_sample(const RgbdFrame& a, const RgbdFrame& b, const std::optional<Pose
   if (!preview) return;
   PreviewPoseEstimator estimator(profile.preview.search);
   const PreviewPose found = estimator.estimate(a, *preview, b.camera, {});
-  const double shared = std::min(found.b_in_a.shared(), found.a_in_b.shared());
-  if (shared < profile.preview.search.limits.min_overlap) return;
+  const double overlap = std::min(found.b_in_a.overlap(), found.a_in_b.overlap());
+  if (overlap < profile.preview.search.limits.min_overlap) return;
   BeliefSample sample;
   sample.evidence = found.evidence;
   if (truth) {

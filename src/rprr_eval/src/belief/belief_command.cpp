@@ -48,7 +48,7 @@ void add_rows(TextTable& table, JsonOutput& json, const std::string& name, const
 }
 
 void show(const BeliefModel& model, const std::vector<BeliefSample>& samples) {
-  static constexpr const char* kNames[] = {"correlation", "fine correlation", "odd depths",
+  static constexpr const char* kNames[] = {"correlation", "fine correlation", "outlier share",
                                            "free space", "margin"};
   const std::array<double, kEvidenceTerms> typical = typical_terms(samples);
   TextTable table({"term", "slope", "median of right poses"});

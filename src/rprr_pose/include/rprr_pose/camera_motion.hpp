@@ -21,9 +21,8 @@ struct CameraMotion {
   Outcome outcome = Outcome::kUnknown;
   Pose later_from_earlier = Pose::Identity();  // with kStill and kMoved, optical
   double metres = 0.0;                         // how far the camera moved [m]
-  double radians = 0.0;
-  double shared =
-      0.0;  // with kStill and kMoved: share of either view that the other shows, the less
+  double radians = 0.0;                        // how far it turned [rad]
+  double overlap = 0.0;  // with kStill and kMoved: share of either view in the other, the less
 };
 
 /// Aligned coarse to fine at block resolution, from no motion and a few turns (tested up to 0.2 m

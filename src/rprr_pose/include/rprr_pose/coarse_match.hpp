@@ -14,9 +14,9 @@ namespace rprr {
 
 /// How two very coarse views match under a motion, judged thousands of times in a search.
 struct CoarseScore {
-  float colour = 0.0f;  // correlation of luma and colour differences where the views meet, up to 2
-  float depth = 0.0f;   // how far depths agree there, up to 1
-  float shared = 0.0f;  // share of the moving view's cells that land in the fixed one
+  float colour = 0.0f;   // correlation of luma and colour differences where the views meet, up to 2
+  float depth = 0.0f;    // how far depths agree there, up to 1
+  float overlap = 0.0f;  // share of the moving view's cells that land in the fixed one
 };
 
 /// A fixed and a moving view, laid out for that.

@@ -54,8 +54,8 @@ class Director final : public ExchangeRole {
   };
   struct Attempt {
     RelativePoseMessage pose;
-    double shared = 0.0;  // of the dependent's view; 0 without a pose
-    std::string wrong;    // with the message
+    double overlap = 0.0;  // of the dependent's view; 0 without a pose
+    std::string wrong;     // with the message
     std::shared_ptr<const ReceivedPreview> preview;
   };
   struct Sent {

@@ -25,10 +25,11 @@ struct KnownPose {
   Pose b_from_a = Pose::Identity();  // the paper's M_ab
 };
 
-/// What else a robot knows of the pose to a peer (tf, odometry): M_ab of the frames worth trying
-/// before a search, the likeliest first; none is fine. `last` is the pose accepted last, however
-/// long ago. Nothing proposed is believed: it is refined and verified like the outcome of a search,
-/// at one to two milliseconds each. Called on the director's thread; must not block.
+/// What else a robot knows of the pose to a peer (tf, odometry): initial guesses of b_from_a for
+/// the frames, the likeliest first; none is fine. `last` is the pose that was accepted last,
+/// however long ago. A guess is never accepted as it is: it is refined and verified like the
+/// outcome of a search, at one to two milliseconds each. Threads: called on the director's; it must
+/// not block.
 using PosePrior = std::function<std::vector<Pose>(const std::string& peer, const FrameNames& frames,
                                                   const std::optional<KnownPose>& last)>;
 

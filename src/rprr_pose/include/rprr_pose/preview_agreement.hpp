@@ -20,9 +20,9 @@ struct Agreement {
   double texture = 0.0;            // standard deviation of the fixed luma over the consistent cells
 
   /// Share of the moving view that the fixed one shows; 0 if there is nothing to share.
-  double shared() const { return valid > 0 ? static_cast<double>(in_view) / valid : 0.0; }
-  /// So many cells as a share of what is shared.
-  double of_shared(double cells) const { return in_view > 0 ? cells / in_view : 0.0; }
+  double overlap() const { return valid > 0 ? static_cast<double>(in_view) / valid : 0.0; }
+  /// So many cells as a share of the overlap.
+  double of_overlap(double cells) const { return in_view > 0 ? cells / in_view : 0.0; }
 };
 
 /// fixed_from_moving maps points of the moving view into the fixed one.

@@ -8,17 +8,17 @@
 
 namespace rprr {
 
-/// How far a search for starting motions goes, degrees either way.
+/// How far the starting poses of a search reach.
 struct StartRange {
-  double yaw = 72.0;
-  double pitch = 36.0;
-  double roll = 24.0;
-  double step = 8.0;
-  std::size_t rotations = 24;  // distinct ones kept of the first stage
-  std::size_t starts = 60;     // motions kept of the second
+  double yaw = 72.0;           ///< either way [degrees]
+  double pitch = 36.0;         ///< either way [degrees]
+  double roll = 24.0;          ///< either way [degrees]
+  double step = 8.0;           ///< between starting rotations [degrees]
+  std::size_t rotations = 24;  ///< distinct rotations that the first stage keeps
+  std::size_t starts = 60;     ///< poses that the second stage keeps
 };
 
-/// Motions from the moving to the fixed view worth trying, the most promising first. Every rotation
+/// Starting poses of the search (fixed_from_moving), the most promising first. Every rotation
 /// of a grid, with steps forward and back, is judged on very coarse views by how colours correlate
 /// and depths agree where the views then overlap. The best distinct ones are then turned about the
 /// middle of the scene, since a shift of the image may be a turn of the camera or a step aside, and

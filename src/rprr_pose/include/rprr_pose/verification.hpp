@@ -8,17 +8,17 @@
 
 namespace rprr {
 
-/// When a pose is believed. A wrong pose is worse than no saving.
+/// When a pose of protocol `samples` is accepted. A wrong pose is worse than no saving.
 struct VerificationLimits {
   double min_overlap = 0.25;     // share of sampled points that fall into the other's view
-  double min_consistent = 0.75;  // share of those in view whose depths agree within noise
-  double max_violating = 0.08;   // share of those in view that lie in seen free space
+  double min_consistent = 0.75;  // share of the points in view whose depths agree within noise
+  double max_violating = 0.08;   // share of the points in view that lie in seen free space
   double max_residual_sigmas =
       3.0;               // RMS of the residuals, in units of what the sensor's noise makes
   int min_matched = 60;  // correspondences, both ways together
-  double max_sigma_translation = 0.01;  // metres, worst direction of the covariance; it takes the
-                                        // correspondences for granted, hence the tight limits
-  double max_sigma_rotation = 0.007;    // rad, worst direction
+  double max_sigma_translation = 0.01;  // in the worst direction [m]; tight, since the covariance
+                                        // takes the correspondences for granted
+  double max_sigma_rotation = 0.007;    // about the worst axis [rad]
 };
 
 /// Judges the final pose by both halves, each one-way: a scene that hides in one direction shows in
