@@ -45,7 +45,6 @@ SessionStep DeviceSession::open(SteadyTime now) {
   if (!device) return give_up(clocks_.steady(), device.reason());
   device_ = std::move(*device);
   device_clock_ = DeviceClock();
-  ++times_opened_;
   opened_at_ = last_colour_ = last_depth_ = pace_checked_ = std::max(now, clocks_.steady());
   arrivals_.clear();
   skews_.clear();

@@ -14,13 +14,13 @@ namespace rprr {
 
 /// A structured-light depth camera of the Kinect's kind, registered to its colour camera.
 struct DepthSensorModel {
-  double min_metres = 0.5;       // nearer surfaces give no reading
-  double max_metres = 5.0;       // nor do farther ones
-  double step = 2.85e-3;         // quantisation: step * z^2 metres, that is, even steps of 1/z
-  double noise = 1.425e-3;       // sigma = noise * z^2 metres before quantisation
-  int correlation = 7;           // side of the window that noise is averaged over, pixels
-  double baseline = 0.075;       // projector to the right of the camera, metres; 0: no shadows
-  double edge_jitter = 1.0;      // how far depth edges stray from the true ones (sigma), pixels
+  double min_metres = 0.5;       // nearer surfaces give no reading [m]
+  double max_metres = 5.0;       // farther surfaces give no reading [m]
+  double step = 2.85e-3;         // quantisation is step * z^2 [m], that is, even steps of 1/z [1/m]
+  double noise = 1.425e-3;       // sigma is noise * z^2 [m] before quantisation [1/m]
+  int correlation = 7;           // side of the window that noise is averaged over [px]
+  double baseline = 0.075;       // projector to the right of the camera [m]; 0: no shadows
+  double edge_jitter = 1.0;      // how far depth edges stray from the true ones, sigma [px]
   double least_infrared = 0.12;  // surfaces that return less give no reading
   bool rim = true;               // no readings along the sides, as registered images have them
 };

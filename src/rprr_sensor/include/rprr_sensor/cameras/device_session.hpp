@@ -67,7 +67,6 @@ class DeviceSession {
   const RgbdDevice* device() const { return device_.get(); }
   SessionRates rates() const;
   std::uint64_t unpaired() const { return pairing_.unpaired(); }
-  std::uint64_t times_opened() const { return times_opened_; }
   /// Also for devices opened later. Returns what RgbdDevice::control does.
   std::string control(const DeviceControls& controls);
 
@@ -94,7 +93,6 @@ class DeviceSession {
   std::unique_ptr<RgbdDevice> device_;
   DeviceClock device_clock_;
   FramePairing pairing_;
-  std::uint64_t times_opened_ = 0;
   Duration retry_ = 0;
   SteadyTime next_try_;   // when a device is looked for again
   SteadyTime opened_at_;  // when the device was opened
