@@ -9,24 +9,35 @@
 #include <cmath>
 #include <vector>
 
+#include "agreement_weights.hpp"
 #include "row_sums.hpp"
 #include "rprr_pose/pinhole.hpp"
 
 namespace rprr {
 namespace {
 
-constexpr std::size_t kChunk = 128;
-constexpr float kNearest = 0.1f;      // metres
-constexpr float kHuber = 1.5f;        // in sigmas
-constexpr int kFewestResiduals = 40;  // below this a view is lost
-constexpr float kFlat = 0.2f;         // metres: how far one cell's plane is trusted off its centre
-// How much more of a view that meets counts: true poses of views that share little must not lose to
-// wrong ones that share much.
-constexpr double kSharedPower = 0.2;
-constexpr float kMeanToSigma = 1.2533f;  // of a normal distribution, from its mean deviation
-constexpr float kCommonError = 0.005f;  // metres: sigma of what neighbours' depths are off together
-constexpr double kUnseen = 2.65;        // of the covariance: rprr_eval consistency --first-seed 1
-constexpr double kTilesOfModel = 8.0;   // how many tiles' word the residuals' variance is worth
+constexpr std::size_t kChunk =
+    128;                          // points that are projected at once, so that they stay in cache
+constexpr float kNearest = 0.1f;  // [m] a point nearer to the fixed camera is left out
+constexpr float kHuber = 1.5f;    // residuals beyond so many sigmas count less
+constexpr int kFewestResiduals = 40;  // with fewer residuals the view is lost
+constexpr float kFlat = 0.2f;         // [m] how far off its centre a cell's plane is trusted
+// True poses of views that overlap little must not lose to wrong ones that overlap much.
+constexpr double kOverlapPower = 0.2;
+constexpr float kMeanToSigma = 1.2533f;  // sqrt(pi / 2): from mean deviation to sigma, if normal
+constexpr float kCommonError = 0.005f;   // [m] sigma of the error that neighbours' depths share
+// The covariance was too small by this factor: `rprr_eval consistency --first-seed 1`.
+constexpr double kUnseen = 2.65;
+constexpr double kTilesOfModel = 8.0;  // the residuals' variance counts as much as so many tiles
+
+// A step is damped a little, relatively and absolutely, where nothing holds the pose.
+constexpr double kRelativeDamping = 1e-4;
+constexpr double kAbsoluteDamping = 1e-3;  // [1/m^2], [1/rad^2]
+// A longer step has lost the view, and a shorter one ends the iteration.
+constexpr double kLongestStep = 2.0;    // [m]
+constexpr double kLargestTurn = 1.0;    // [rad]
+constexpr double kShortestStep = 2e-4;  // [m]
+constexpr double kSmallestTurn = 1e-4;  // [rad]
 
 struct Luma {
   float value, du, dv;  // and its slope by pixel of the luma image
@@ -273,8 +284,8 @@ void store(const Tiles& tiles, AlignmentSums& sums) {
 
 Twist step_of(const Sums& found, const Matrix6& information) {
   Matrix6 damped = information;
-  damped.diagonal() *= 1.0 + 1e-4;
-  damped.diagonal().array() += 1e-3;
+  damped.diagonal() *= 1.0 + kRelativeDamping;
+  damped.diagonal().array() += kAbsoluteDamping;
   return damped.ldlt().solve(-(found.geometric.gradient() + found.photometric.gradient()));
 }
 
@@ -283,9 +294,9 @@ Twist step_of(const Sums& found, const Matrix6& information) {
 double AlignmentSums::score() const {
   const int met = close + before + behind;
   if (met == 0) return 0.0;
-  const double agreement = (close - 2.0 * before - 0.5 * behind) / met;
+  const double agreement = (close - kViolatingWeight * before - kHiddenWeight * behind) / met;
   if (agreement <= 0.0 || correlation <= 0.0) return 0.0;
-  return agreement * correlation * std::pow(static_cast<double>(met) / points, kSharedPower);
+  return agreement * correlation * std::pow(static_cast<double>(met) / points, kOverlapPower);
 }
 
 MovingPoints points_of(const PreviewView& view, int stride) {
@@ -326,12 +337,11 @@ bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOp
     store(found, moving.size(), exposure, sums);
     if (found.geometry + found.luma < kFewestResiduals) return false;
     const Twist step = step_of(found, sums.information);
-    if (!step.allFinite() || step.head<3>().norm() > 2.0 || step.tail<3>().norm() > 1.0)
-      return false;
+    const double metres = step.head<3>().norm();
+    const double radians = step.tail<3>().norm();
+    if (!step.allFinite() || metres > kLongestStep || radians > kLargestTurn) return false;
     fixed_from_moving = exp_se3(step) * fixed_from_moving;
-    if (step.head<3>().norm() < 2e-4 && step.tail<3>().norm() < 1e-4 && gate <= options.last_gate) {
-      break;
-    }
+    if (metres < kShortestStep && radians < kSmallestTurn && gate <= options.last_gate) break;
     exposure = found.exposure(options);
     gate = std::max(gate * shrink, options.last_gate);
   }
@@ -343,10 +353,10 @@ bool align(const MovingPoints& moving, const FixedView& fixed, const AlignmentOp
   return true;
 }
 
-// Of the aligned motion. Neighbours share their sensor's errors, so that the residuals' number says
-// too much: what they do to the estimate is taken from their sums over tiles, leaning on the
-// residuals' own variance where tiles are few. What both do not see (coding, noise in the slopes
-// that the residuals are projected on) is a factor, from exact truth on seeds 1 to 40.
+// Neighbouring cells share errors of the sensor, so that the number of residuals promises too much.
+// What such errors do to the estimate is taken from the residuals' sums over tiles. Where tiles are
+// few, the residuals' own variance counts as well. Neither sees the coding, or noise in the slopes
+// that residuals are projected on: that is the factor kUnseen.
 Matrix6 covariance_of(const AlignmentSums& sums) {
   const double freedom = std::max(1, sums.geometry + sums.luma - 6);
   const double scale = std::max(1.0, (sums.chi2_geometry + sums.chi2_luma) / freedom);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "agreement_weights.hpp"
 #include "pose_check.hpp"
 #include "rprr_pose/frame_views.hpp"
 
@@ -55,10 +56,6 @@ constexpr double kRival = 0.75;  // of a warm pose's score: another pose that sc
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
 
-// A block counts as 1 where the depths agree and as -2 where one view looked through the other's
-// surface. Where it hides behind the other's surface it counts as -0.5: that may be right.
-constexpr double kViolatingWeight = 2.0;
-constexpr double kHiddenWeight = 0.5;
 // True poses of views that overlap by half must not lose to wrong ones that overlap by more.
 constexpr double kOverlapPower = 0.4;
 constexpr int kFewestCells = 40;  // cells with depth, since align() gives up below 40 residuals

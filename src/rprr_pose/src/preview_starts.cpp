@@ -11,24 +11,44 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr float kLeastOverlap = 0.12f;  // of the moving view's cells
-// Steps of the fixed camera along its axis, in units of the typical depth.
+// The numbers of the search were chosen for right poses per millisecond with `rprr_eval poses` and
+// `rprr_eval timing`: the tables of docs/pose.md show what they give.
+
+// A starting pose with a smaller overlap, as a share of the moving view's cells, is dropped.
+constexpr float kLeastOverlap = 0.12f;
+// Score: colour counts half of depth, and overlap little, since true poses may overlap by half.
+constexpr float kColourWeight = 0.5f;
+constexpr float kOverlapPower = 0.3f;
+
+// First stage: rotations, each with steps of the fixed camera along its axis [typical depths].
 constexpr std::array<float, 5> kForward = {0.0f, -0.3f, 0.3f, -0.55f, 0.6f};
-// Turns about the middle of the scene, degrees.
+constexpr double kRollSteps = 2.0;      // cameras roll less than they turn: wider steps do
+constexpr double kRotationApart = 1.6;  // rotations that go on differ by so many steps, or
+constexpr double kForwardApart = 0.2;   // their steps along the axis by this [typical depths]
+
+// Second stage: turns about the middle of the scene [degrees], with the camera nearer or farther
+// [typical depths].
 constexpr std::array<double, 11> kYawTurns = {0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75};
 constexpr std::array<double, 5> kPitchTurns = {0, -14, 14, -28, 28};
 constexpr std::array<float, 3> kNearer = {0.0f, -0.2f, 0.2f};
-// After a rotation alone parallax moves depths; with a motion they should agree better.
+constexpr double kTurnApart = 6.0;    // [degrees] poses that go on differ by so much, or
+constexpr double kPlaceApart = 0.08;  // by this [typical depths]; after the climb by half of both
+
+// How far depths may differ, relatively. After a rotation alone parallax moves them; with a shift
+// they should agree better.
 constexpr float kRotationTolerance = 0.5f;
 constexpr float kMotionTolerance = 0.3f;
-// Steps of the climb that follows: first and later ones, in units of these.
-constexpr std::array<double, 4> kClimb = {1.0, 1.0, 0.6, 0.36};
-// Where matches_along looks, metres.
-constexpr int kProbes = 20;
-constexpr double kProbeStep = 0.18;
-constexpr std::size_t kMostPeaks = 2;
+
+// The climb's first step in each direction, and the sizes of later ones relative to it.
 constexpr double kClimbDegrees = 8.0;
-constexpr double kClimbMetres = 0.15;  // per metre of typical depth
+constexpr double kClimbDepths = 0.15;  // [typical depths]
+constexpr std::array<double, 4> kClimb = {1.0, 1.0, 0.6, 0.36};
+
+// matches_along looks so many steps either way.
+constexpr int kProbes = 20;
+constexpr double kProbeStep = 0.18;  // [m]
+constexpr int kFewestSteps = 2;      // a match nearer than so many steps is the pose itself
+constexpr std::size_t kMostPeaks = 2;
 
 struct Judged {
   Pose a_from_b = Pose::Identity();
@@ -41,7 +61,8 @@ bool better(const Judged& left, const Judged& right) {
 
 float score_of(const CoarseScore& found) {
   if (found.overlap < kLeastOverlap) return 0.0f;
-  return std::max(0.0f, 0.5f * found.colour + found.depth) * std::pow(found.overlap, 0.3f);
+  return std::max(0.0f, kColourWeight * found.colour + found.depth) *
+         std::pow(found.overlap, kOverlapPower);
 }
 
 Eigen::Matrix3d turn_of(double yaw, double pitch, double roll) {
@@ -81,7 +102,7 @@ std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& r
   const auto steps_of = [](double reach, double step) {
     return static_cast<int>(reach / step + 1e-9);
   };
-  const double roll_step = 2.0 * range.step;
+  const double roll_step = kRollSteps * range.step;
   const int yaws = steps_of(range.yaw, range.step);
   const int pitches = steps_of(range.pitch, range.step);
   const int rolls = steps_of(range.roll, roll_step);
@@ -98,12 +119,12 @@ std::vector<Judged> best_rotations(const CoarseMatch& match, const StartRange& r
       }
     }
   }
-  const double apart = 0.2 * static_cast<double>(match.typical_depth());
-  return distinct(std::move(all), range.rotations, apart, 1.6 * range.step);
+  const double apart = kForwardApart * static_cast<double>(match.typical_depth());
+  return distinct(std::move(all), range.rotations, apart, kRotationApart * range.step);
 }
 
-// The motion after a step along one of its degrees of freedom: translation, or a turn about the
-// middle of what is seen, so that the view stays on it.
+// The pose after a step along one of its degrees of freedom: a shift, or a turn about the middle of
+// what is seen, so that the view stays on the scene.
 Pose stepped(const Pose& a_from_b, int axis, double metres, double radians, double middle_depth) {
   Pose out = a_from_b;
   if (axis < 3) {
@@ -118,7 +139,7 @@ Pose stepped(const Pose& a_from_b, int axis, double metres, double radians, doub
   return out;
 }
 
-// Improves a motion step by step: the score knows free space and colour from further away than an
+// Improves a pose step by step: the score knows free space and colour from further away than an
 // alignment's gradient does.
 void climb(const CoarseMatch& match, Judged& best) {
   const auto depth = static_cast<double>(match.typical_depth());
@@ -126,7 +147,7 @@ void climb(const CoarseMatch& match, Judged& best) {
     for (int axis = 0; axis < 6; ++axis) {
       for (const double signed_size : {size, -size}) {
         Judged other;
-        other.a_from_b = stepped(best.a_from_b, axis, kClimbMetres * depth * signed_size,
+        other.a_from_b = stepped(best.a_from_b, axis, kClimbDepths * depth * signed_size,
                                  kClimbDegrees * kDegree * signed_size, depth);
         judge(match, kMotionTolerance, other);
         if (other.score <= best.score) continue;
@@ -163,11 +184,11 @@ std::vector<Pose> find_starts(const CoarseMatch& match, const StartRange& range)
       }
     }
   }
-  const double apart = 0.08 * static_cast<double>(match.typical_depth());
-  std::vector<Judged> best = distinct(std::move(turned), range.starts, apart, 6.0);
+  const double apart = kPlaceApart * static_cast<double>(match.typical_depth());
+  std::vector<Judged> best = distinct(std::move(turned), range.starts, apart, kTurnApart);
   for (Judged& one : best) climb(match, one);
   std::vector<Pose> starts;
-  for (const Judged& one : distinct(std::move(best), range.starts, 0.5 * apart, 3.0)) {
+  for (const Judged& one : distinct(std::move(best), range.starts, 0.5 * apart, 0.5 * kTurnApart)) {
     starts.push_back(one.a_from_b);
   }
   return starts;
@@ -185,7 +206,7 @@ std::vector<double> matches_along(const CoarseMatch& match, const Pose& from,
   for (int k = 1 - kProbes; k < kProbes; ++k) {
     const auto i = static_cast<std::size_t>(k + kProbes);
     const float score = line[i].score;
-    if (std::abs(k) < 2 || score <= 0.0f) continue;
+    if (std::abs(k) < kFewestSteps || score <= 0.0f) continue;
     if (score < line[i - 1].score || score <= line[i + 1].score) continue;
     peaks.emplace_back(score, k * kProbeStep);
   }
