@@ -8,11 +8,12 @@
 
 namespace rprr::dhcm {
 
-/// Contexts: what is known of a pixel's surroundings before the pixel itself. Each counts its runs
-/// of right guesses for itself and has Huffman tables of its own, which it may share with its
-/// predecessor in this list (doc/dhcm.md).
+/// Contexts: what the decoder knows of a pixel's neighbours before it reads the pixel. Each context
+/// counts its own runs of right guesses and has its own Huffman tables. It may share the tables
+/// with the context before it in this list (doc/dhcm.md, "Contexts"). W, N, NW, NE and NEE are the
+/// neighbours to the west, the north and so on.
 enum Context : int {
-  kFlat = 0,                 // no gradient within two columns
+  kFlat = 0,                 // no gradient within two columns of the pixel
   kInHole,                   // W, N and NE without reading
   kAlmostFlat,               // no gradient among the nearest neighbours
   kStep,                     // six contexts: one gradient of one rank, by its place and sign
@@ -20,27 +21,28 @@ enum Context : int {
   kHoleRim = kActivity + 8,  // six contexts: which of W, N and NE have no reading
   kNoNorth = kHoleRim + 6,   // first row of what is sent, W has a reading
   kNoNorthHole,              // first row of what is sent, W has none
-  kStart,                    // first row, and nothing west of it either
+  kStart,                    // first row of what is sent, and nothing is sent to the west
   kContexts
 };
 
-/// What the row above says of a pixel, from N - NW, NE - N and which of N and NE are holes.
+/// Class of a pixel by the row above: by the gradients N - NW and NE - N, and by whether N and NE
+/// are holes (pixels without reading).
 enum NorthClass : std::uint8_t {
   kNorthPair = 0,       // nine: both gradients within -1..1
   kNorthLevel = 4,      // the pair (0, 0)
-  kNorthFlat = 9,       // the same, and NEE equals NE too
-  kNorthActivity = 10,  // seven, by the sum of the sizes
-  kNorthRim = 17,       // two: N or NE is a hole
-  kNorthHole = 19,      // both are
+  kNorthFlat = 9,       // the pair (0, 0), and NEE equals NE
+  kNorthActivity = 10,  // seven: by the sum of the gradients' sizes
+  kNorthRim = 17,       // two: either N or NE is a hole
+  kNorthHole = 19,      // N and NE are holes
   kNorthClasses
 };
 
-/// What the west adds: W - NW held within -7..7, or that W is a hole.
+/// Class of a pixel by its west: W - NW held within -7..7, plus kWestLevel; or W is a hole.
 constexpr int kWestHole = 0;
 constexpr int kWestLevel = 8;
 constexpr int kWestClasses = 16;
 
-/// Context by north class and west class.
+/// The context of every pair of a north class and a west class, row by row.
 using ContextMap = std::array<std::uint8_t, kNorthClasses * kWestClasses>;
 const ContextMap& context_map();
 
@@ -64,10 +66,11 @@ inline int west_class(std::int16_t w, std::int16_t nw) {
 /// kLanes - 1 columns further, whose results mean nothing.
 void classify_north(const std::int16_t* fill, const std::int16_t* hole, int begin, int end,
                     std::uint8_t* north, std::int16_t* step);
-/// The same for one pixel, for tests to compare with: n is the surface above it.
+/// classify_north() for one pixel, which tests compare with. n: the surface above the pixel.
 std::uint8_t north_class(const std::int16_t* n, const std::int16_t* hole);
 
-/// What of a row of pixels is as guessed. All by column; fill and hole from column begin - 1.
+/// Rows of numbers that a row of pixels is predicted from, by column. fill and hole are valid from
+/// column begin - 1 on.
 struct RowView {
   const std::int16_t* fill;
   const std::int16_t* hole;
@@ -75,8 +78,8 @@ struct RowView {
   const std::int16_t* step;   // from classify_north
   const std::uint8_t* north;
 };
-/// Places in the context map, residuals and whether a guess failed (0 or 1), with the same margin
-/// as classify_north.
+/// For each pixel from begin to end: its place in the context map, its residual, and whether the
+/// guess failed (0 or 1). Precondition: the arrays have classify_north's margin.
 void compare_row(const RowView& row, int begin, int end, std::int16_t* place,
                  std::int16_t* residual, std::uint8_t* miss);
 

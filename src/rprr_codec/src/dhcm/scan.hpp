@@ -17,12 +17,12 @@ struct Segment {
   bool west = false;   // the pixel before was coded
 };
 
-/// The segments of an image's rows: all of it, or the blocks of a mask.
+/// The segments of each row of an image: one for the whole row, or those of a mask's blocks.
 class Segments {
  public:
   Segments(const BlockGrid& grid, const BlockMask* mask) : grid_(grid), mask_(mask) {}
 
-  /// Called for ever larger rows; the answer is valid until the next call.
+  /// Preconditions: rows are asked for in rising order. The answer is valid until the next call.
   const std::vector<Segment>& of_row(int row);
   /// Pixels that are coded in the whole image.
   std::size_t pixels() const;
@@ -37,9 +37,9 @@ class Segments {
   int listed_row_ = -1;
 };
 
-/// The last known surface above each column, with a margin of two columns on either
-/// side and room for kLanes more. A pixel
-/// that has no reading, or is not coded, keeps a guess of what would be there.
+/// The last known surface above each column. A pixel that has no reading, or is not coded, keeps a
+/// guess of what would be there. Two columns of margin are on either side, and room for kLanes
+/// more.
 class Surface {
  public:
   static constexpr int kMargin = 2;
@@ -48,13 +48,13 @@ class Surface {
     hole_.assign(fill_.size(), 0);
     last_start_ = 0;
   }
-  /// Ranks or readings modulo 2^16.
+  /// Rank or reading of each column, modulo 2^16.
   std::int16_t* fill() { return fill_.data() + kMargin; }
-  /// 0 or 1.
+  /// Whether the pixel of each column had no reading: 0 or 1.
   std::int16_t* hole() { return hole_.data() + kMargin; }
   /// The surface where a segment with no known neighbour began last.
   std::int16_t& last_start() { return last_start_; }
-  /// Makes up what a segment's pixels look at beyond the segment.
+  /// Fills in the columns beside a segment that its pixels are predicted from.
   void prepare(const Segment& segment) {
     std::int16_t* const f = fill();
     std::int16_t* const h = hole();
@@ -62,7 +62,7 @@ class Surface {
       f[segment.begin - 1] = f[segment.begin];
       h[segment.begin - 1] = h[segment.begin];
     }
-    // Whatever stands there is not coded in this row, or nothing above it was.
+    // The column after the segment is not coded in this row, or had nothing coded above.
     f[segment.end] = f[segment.end + 1] = f[segment.end - 1];
     h[segment.end] = h[segment.end - 1];
   }

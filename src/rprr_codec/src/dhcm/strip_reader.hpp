@@ -29,9 +29,9 @@ struct StripTables {
     std::uint8_t found;  // 0 or 1
   };
   std::array<Pair, 1u << kMaxCodeLength> pairs;
-  bool mostly_pairs;  // else looking for them costs more than it saves
+  bool mostly_pairs;  // worth looking for: two residuals are found in most words
 
-  /// False if the bits are no such tables.
+  /// Errors: false if the bits are no tables of strips.
   bool read(BitReader& bits);
 
  private:
@@ -40,20 +40,22 @@ struct StripTables {
 
 using StripStreams = std::array<BitReader, kStripStreams>;
 
-/// Where a strip goes to.
+/// Where the decoded pixels of a strip are written.
 struct StripTarget {
   std::uint16_t* first;         // its first row
   std::size_t stride;           // from row to row
-  const std::uint16_t* values;  // what ranks stand for, from rank 0, or nullptr
+  const std::uint16_t* values;  // depth of each rank, from rank 0 on; nullptr: ranks are depths
 };
 
 /// Reads what StripCoder wrote.
 class StripReader {
  public:
-  /// Ranks above largest are refused, if it is below 32768. Above, any rank may come out.
+  /// largest: ranks above it are refused. From 32768 on nothing is refused, and any rank may come
+  /// out.
   StripReader(const BlockGrid& grid, const BlockMask* mask, std::uint16_t largest);
-  /// The pixels of a strip that are sent. False where a rank or symbol means nothing; then, as past
-  /// the end of a stream, what was written means nothing either.
+  /// Writes the pixels of a strip that are sent.
+  /// Errors: false where a rank or a symbol means nothing. What was written then is arbitrary, as
+  /// it is past the end of a stream.
   bool strip(int strip, const StripTables& tables, StripStreams& streams,
              const StripTarget& target);
 

@@ -13,11 +13,11 @@
 
 namespace rprr::dhcm {
 
-/// The coder of the modes fast and default: groups of eight pixels, which are a row of a block.
-/// Which of the eight are not as guessed is one Huffman symbol, and what they are instead is one
-/// each, in streams of their own (doc/dhcm.md). So nothing that is decoded decides how the next
-/// bits are to be read: a decoder runs without branches on the picture, two rows at a time, and
-/// rebuilds eight rows at once afterwards.
+/// The coder of the modes fast and default. It codes groups of eight pixels, which are a row of a
+/// block. One Huffman symbol says which of the eight pixels are not as guessed. One symbol for each
+/// of those, in a stream of its own, says what they are (doc/dhcm.md). So nothing that is decoded
+/// decides how the next bits are read: a decoder runs two rows at a time without branches that
+/// depend on the picture, and rebuilds eight rows at once afterwards.
 constexpr int kStripRows = 8;
 /// Rows 0, 2, 4, 6 of all strips are one side, rows 1, 3, 5, 7 the other.
 constexpr std::size_t kStripSides = 2;
@@ -25,7 +25,7 @@ constexpr std::size_t kStripSides = 2;
 constexpr std::size_t kStripStreams = 2 * kStripSides;
 /// The symbol before a group whose pixels without reading are not those of the row above.
 constexpr std::size_t kHolesChange = 256;
-/// Tables of groups: no, some or all pixels above are without reading.
+/// A group has one of three tables: none, some or all of the pixels above have no reading.
 constexpr std::size_t kHoleClasses = 3;
 inline std::size_t hole_class(std::uint8_t holes) {
   return static_cast<std::size_t>(holes != 0) + static_cast<std::size_t>(holes == 255);
@@ -62,19 +62,19 @@ struct StripSegment {
   int begin;
   int end;
 };
-/// Segments of a strip: all of it, or the blocks of a mask.
+/// The segments of a strip: one for the whole strip, or those of a mask's blocks.
 void list_segments(const BlockGrid& grid, const BlockMask* mask, int strip,
                    std::vector<StripSegment>& segments);
 
-/// What both sides know of the row above: the rank of the last pixel with a reading or, where that
-/// is not known, a guess; and which pixels had none.
+/// What encoder and decoder know of the row above: for each column the rank of the last pixel with
+/// a reading, or a guess where there was none; and which pixels had no reading.
 struct StripSurface {
   std::vector<std::int16_t> fill;   // by column, padded to whole groups
   std::vector<std::uint8_t> holes;  // by group, the first pixel lowest
   std::int16_t last = 0;            // top left pixel of the segment before
 
   void reset(int columns);
-  /// Makes up what stands above those blocks of a segment that have none above.
+  /// Guesses the surface above the blocks of a segment above which nothing was sent.
   void prepare(const BlockGrid& grid, const BlockMask* mask, int strip,
                const StripSegment& segment);
 };
@@ -87,12 +87,12 @@ class StripCoder {
   /// which are whole groups.
   void strip(const std::uint16_t* ranks, std::size_t stride, int strip);
   bool empty() const { return sides_[0].group_count == 0; }
-  /// Whether next to all groups are as guessed, each of which takes a bit: events, of which there
-  /// are none then, are shorter and as fast.
+  /// Whether almost all groups are as guessed. Each of them still takes a bit here; the coder of
+  /// events then makes fewer bytes as fast.
   bool quiet() const;
-  /// Second pass, after the last strip: appends the tables to head and makes the streams, those of
-  /// groups of both sides, then those of residuals. Quickly: tables are fitted to one side, with
-  /// words for all that may occur on the other.
+  /// Second pass, after the last strip: appends the tables to head and makes the streams, first
+  /// those of both sides' groups, then those of their residuals. quick: tables are fitted to one
+  /// side only, with words for all that may occur on the other side.
   void write(bool quick, BitWriter& head);
   ByteView stream(std::size_t index) const {
     return {streams_[index].bytes.data(), streams_[index].size};
