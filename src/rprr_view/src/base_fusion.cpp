@@ -12,31 +12,32 @@
 namespace rprr {
 namespace {
 
-constexpr std::size_t kOctaves = 5;  // of the base that are weighed; what is coarser counts fully
-constexpr int kSmallest = 8;         // pixels a side of the coarsest level, or the next below
+constexpr std::size_t kOctaves = 5;  // octaves that are weighed; coarser ones count fully
+constexpr int kSmallest = 8;         // [px] the pyramid ends at the first level that is no larger
 
-// How the power of a base's coding noise spreads over octaves, the finest first: shares of the mean
-// square that 2x2 cells hold, rounded. Of WebP at several qualities, on a kitchen and a rendered
-// room; other codecs take the same.
+// How the power of a base's coding noise spreads over octaves, the finest first: rounded shares of
+// the mean square that 2x2 cells hold. Measured with WebP at several qualities on a kitchen and a
+// rendered room. Other codecs take the same numbers.
 constexpr std::array<float, kOctaves> kNoiseReduced{0.50f, 0.28f, 0.13f, 0.06f, 0.02f};
 constexpr std::array<float, kOctaves> kNoiseFull{0.24f, 0.29f, 0.25f, 0.12f, 0.06f};
 
-// Grey levels of noise below which a prediction does not improve a base of full size: the gain in
-// PSNR averages below 0 on a kitchen, a rendered room, an office and a household alike.
+// A base of full size with less coding noise than this [grey levels] is taken as it is: below, a
+// prediction lowers the mean PSNR of a kitchen, a rendered room, an office and a household.
 constexpr float kFine = 4.5f;
 
-// Coding noise is no larger than so much of what an octave holds at its place: where there is
-// nothing, nothing was lost.
+// Coding noise is at most this share of the signal that an octave holds at a place: where there is
+// no signal, coding lost none.
 constexpr float kNoiseOfSignal = 0.3f;
 
-// The estimate errs on the side of the prediction where that is mostly good, of the base where not.
-// Mostly: at all but this share of places.
+// The noise is multiplied by the trust in the prediction: kTrust times the base's noise over the
+// difference that this share of places stays below, within bounds. So where the prediction is good
+// at most places, the estimate leans to it, and to the base otherwise.
 constexpr float kMostly = 0.9f;
 constexpr float kTrust = 4.0f;
 constexpr float kLeastTrust = 0.3f;
 constexpr float kMostTrust = 2.0f;
-// Steeper than Wiener's share: what a codec loses is part of the signal, so where the prediction
-// lacks the same detail the difference looks smaller than the prediction's error.
+// The share is steeper than Wiener's. What a codec loses is part of the signal: where the
+// prediction lacks the same detail, the difference looks smaller than the prediction's error.
 constexpr float kSteepness = 1.3f;
 
 std::size_t level_of(int reduction) {
@@ -63,7 +64,7 @@ void reduce(const cv::Mat& fine, cv::Mat& coarse) {
       });
 }
 
-// scratch: two rows for to_floats().
+// Halves an image in both directions. scratch: CV_32FC1, two rows of the image's colours.
 void reduce_bgr(const cv::Mat& bgr, cv::Mat& coarse, cv::Mat& scratch) {
   coarse.create(half(bgr.size()), CV_32FC4);
   float* const rows[2] = {scratch.ptr<float>(0), scratch.ptr<float>(1)};
@@ -81,7 +82,7 @@ void reduce_bgr(const cv::Mat& bgr, cv::Mat& coarse, cv::Mat& scratch) {
   });
 }
 
-// Means over 3x3 values, as far as the image goes.
+// Means over 3x3 values; values at the rim count again where the window goes beyond the image.
 void smooth(const cv::Mat& in, cv::Mat& out) {
   out.create(in.size(), CV_32FC1);
   for (int v = 0; v < in.rows; ++v) {
@@ -104,20 +105,20 @@ float sum_of(Float4 x) {
   return x[0] + x[1] + x[2];
 }
 
-// Mean square, of the three colours, of what four pixels hold beyond their mean.
+// Mean square of the difference between four pixels and their mean, over the three colours.
 float octave_energy(Float4 a, Float4 b, Float4 c, Float4 d, Float4 mean) {
   const Float4 all = (a * a + b * b) + (c * c + d * d);
   return (1.0f / 3.0f) * sum_of(all4(0.25f) * all - mean * mean);
 }
 
-// Pixels of the difference and of the prediction.
+// A pixel of the difference and the same pixel of the prediction.
 struct Both {
   Float4 difference;
   Float4 prediction;
 };
 
-// The mean difference of a cell; what its octave holds of the difference, and of prediction or
-// base, whichever is more.
+// Returns the mean difference of a 2x2 cell. energy: mean square of the difference in the cell's
+// octave. signal: mean square of the prediction or of the base there, whichever is more.
 Float4 measure(const Both& a, const Both& b, const Both& c, const Both& d, float& energy,
                float& signal) {
   const Float4 quarter = all4(0.25f);
@@ -135,7 +136,7 @@ Float4 measure(const Both& a, const Both& b, const Both& c, const Both& d, float
   return difference;
 }
 
-// out = E(q) + E(q's weight) x, E enlarging to x's size.
+// out = E(q) + E(w) x, where w is the fourth number of q's pixels and E enlarges to x's size.
 void expand(const cv::Mat& q, const cv::Mat& x, cv::Mat& out, Float4* mixed) {
   out.create(x.size(), CV_32FC4);
   for (int v = 0; v < x.rows; ++v) {
@@ -146,7 +147,7 @@ void expand(const cv::Mat& q, const cv::Mat& x, cv::Mat& out, Float4* mixed) {
   }
 }
 
-// q's colours are `whole` minus weight times `part`, its fourth number the weight.
+// The colours of q are whole - weight * part; the fourth number of its pixels is the weight.
 void weighted_rest(const cv::Mat& whole, const cv::Mat& part, const cv::Mat& weight, cv::Mat& q) {
   q.create(whole.size(), CV_32FC4);
   for (int v = 0; v < q.rows; ++v) {
@@ -255,7 +256,7 @@ void BaseFusion::compare(const BaseImage& base, std::size_t base_level, std::siz
   }
 }
 
-// From the coarsest level down to the base's: what to add to the prediction.
+// Goes from the coarsest level down to the base's and finds what to add to the prediction.
 void BaseFusion::join(std::size_t base_level, std::size_t coarsest, const BaseImage& base) {
   const auto& noise = base_level == 0 ? kNoiseFull : kNoiseReduced;
   levels_[coarsest].difference.copyTo(levels_[coarsest].joint);
@@ -275,7 +276,7 @@ void BaseFusion::join(std::size_t base_level, std::size_t coarsest, const BaseIm
   }
 }
 
-// Wiener's share of the difference in an octave; variance is that of the base's noise there.
+// Finds how much of the difference counts in an octave. variance: of the base's noise there.
 void BaseFusion::weigh(std::size_t level, float variance) {
   Level& own = levels_[level];
   smooth(own.energy, own.share);
@@ -294,7 +295,7 @@ void BaseFusion::weigh(std::size_t level, float variance) {
   }
 }
 
-// What most of the values are below.
+// The value that the share kMostly of all values stays below, from every third row and column.
 float BaseFusion::most_of_some(const cv::Mat& values) {
   constexpr int kEvery = 3;
   sample_.clear();
@@ -307,8 +308,8 @@ float BaseFusion::most_of_some(const cv::Mat& values) {
   return *place;
 }
 
-// How much of the prediction's detail beyond the base to keep: like the finest octave in common,
-// the covariance of prediction and joint estimate over the larger of their variances.
+// Finds how much of the prediction's detail beyond the base to keep. In the finest octave that both
+// have, that is the covariance of prediction and joint estimate over the larger of their variances.
 void BaseFusion::weigh_finer_detail(std::size_t base_level) {
   const Level& own = levels_[base_level];
   const cv::Size cells = half(own.joint.size());
@@ -339,7 +340,7 @@ void BaseFusion::weigh_finer_detail(std::size_t base_level) {
     smooth(sums, smoothed_);
     cv::swap(sums, smoothed_);
   }
-  // Of four pixels and three colours, so that flat places count as agreeing.
+  // Added to sums over four pixels and three colours, so that flat places count as agreeing.
   constexpr float kFlat = 12.0f;
   Level& weights = levels_[base_level + 1];
   weights.joint.create(cells, CV_32FC4);
@@ -359,8 +360,8 @@ void BaseFusion::weigh_finer_detail(std::size_t base_level) {
   }
 }
 
-// What the joint estimate of a level holds beyond its share of the prediction; the weight goes with
-// it as the fourth number.
+// The joint estimate of a level minus the weighted prediction; the weight is the fourth number of
+// the pixels.
 void BaseFusion::rest_beyond_base(std::size_t level) {
   const Level& own = levels_[level];
   rest_.create(own.joint.size(), CV_32FC4);
