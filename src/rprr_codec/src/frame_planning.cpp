@@ -114,7 +114,8 @@ Result<bool> FrameEncoder::try_settings(const LayerSettings& settings, EncodedFr
   return done;
 }
 
-// Of detail where there is some and the enlarged base elsewhere, against the frame's colours.
+// PSNR [dB] against the frame of what is sent: the detail where there is some, and the enlarged
+// base elsewhere.
 Result<double> FrameEncoder::sent_psnr(const EncodedFrame& frame) {
   Result<DecodedFrame> sent = own_decoder_.decode_colours(frame);
   if (!sent) return Error{sent.reason()};

@@ -58,7 +58,7 @@ bool is_within(const OptionRange& range, double value) {
   return value >= range.least && value <= range.most;  // false for NaN
 }
 
-// Of a value of the option's own kind.
+// Whether an option may have a value. Precondition: the value is of the option's kind.
 bool is_allowed(const Option& option, const OptionValue& value) {
   if (const int* whole = std::get_if<int>(&value)) {
     if (!is_within(option.range, *whole)) return false;

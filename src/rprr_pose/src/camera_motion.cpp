@@ -103,7 +103,8 @@ bool try_from(const Pose& start, const Views& views, Found& found) {
   return explains(found);
 }
 
-// Of some turns the one from which the coarsest views agree best: robots turn faster than they go.
+// The turn, out of a few, from which the coarsest views agree best: robots turn faster than they
+// drive.
 Pose best_turn(const Views& views) {
   FixedView fixed;
   fixed.cells = &views.earlier.back();

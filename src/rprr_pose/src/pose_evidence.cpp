@@ -10,7 +10,7 @@ namespace {
 // From rprr_eval belief --scenes 150: for the terms in their order, then the constant.
 constexpr std::array<double, kEvidenceTerms> kSlopes = {2.28, 9.55, -10.54, -37.23, 11.37};
 constexpr double kConstant = -7.41;
-// The same command printed these medians of the terms of right poses.
+// Medians of the terms of right poses, as `rprr_eval belief` printed them.
 constexpr std::array<double, kEvidenceTerms> kTypical = {1.80, 0.68, 0.00, 0.00, 0.30};
 constexpr std::array<PoseStatus, kEvidenceTerms> kCauses = {
     PoseStatus::kColourDisagrees, PoseStatus::kColourDisagrees, PoseStatus::kDepthDisagrees,

@@ -93,8 +93,8 @@ void ExchangeNode::advertise() {
   decisions_ = nh_.advertise<FrameDecision>(prefix + "exchange", 10);
 }
 
-// Of every peer everything, whatever its role is now: a role that changes finds its topics
-// connected.
+// All topics of every peer are heard, whatever its role is now: so a role that changes finds its
+// topics connected.
 void ExchangeNode::subscribe(const std::string& peer) {
   if (stage_->uses_previews()) {
     listen<rprr_msgs::BlockPreview>(peer, "preview");

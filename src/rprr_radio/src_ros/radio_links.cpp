@@ -65,7 +65,7 @@ bool call(const char* method, const XmlRpc::XmlRpcValue& parameters, XmlRpc::Xml
 
 using Publishers = std::set<std::string>;  // URIs
 
-// Of every topic that this node subscribes to, those that it is connected to.
+// The publishers that this node is connected to, by topic.
 std::map<std::string, Publishers> subscriptions() {
   std::map<std::string, Publishers> out;
   XmlRpc::XmlRpcValue parameters;

@@ -21,8 +21,8 @@ struct Bounds {
   }
 };
 
-/// Of the part of the solid's bounding box before the near plane: the box's edges cut off there
-/// span its whole outline.
+/// The bounds on the screen of a solid's bounding box, as far as it lies beyond the near plane. The
+/// box's edges, cut off at that plane, span its whole outline.
 Bounds bounds_of(const PlacedPrimitive& solid, const Camera& camera) {
   Eigen::Vector3f half = solid.half;
   if (solid.shape == Shape::sphere) half.setConstant(half.x());

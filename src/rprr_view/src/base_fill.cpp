@@ -30,8 +30,8 @@ Float4 sample4(const cv::Mat& image, float x, float y) {
   return above + all4(y - static_cast<float>(top)) * (below - above);
 }
 
-// Of sums and how many there are (the fourth number) makes means everywhere: where there are none
-// or few they come from around (push-pull, as in smooth_fill.hpp).
+// Turns sums of values, with their number as the fourth number of a pixel, into means. Where there
+// are few values or none, the mean comes from around (push-pull, as in smooth_fill.hpp).
 void spread(std::vector<cv::Mat>& levels) {
   std::size_t count = 1;
   for (cv::Size size = levels[0].size(); size.area() > 1; size = half(size)) ++count;
@@ -111,7 +111,7 @@ void BaseFill::fill(const BaseImage& base, PredictedView& view) {
   }
 }
 
-// Of some pixels: means of base minus prediction in cells, and how many there were.
+// Takes the mean of base minus prediction over some pixels of each cell, and their number.
 void BaseFill::measure_offsets(const BaseImage& base, const PredictedView& view) {
   const auto cells = [](int pixels) { return (pixels + kOffsetCell - 1) / kOffsetCell; };
   cv::Mat& offsets = offsets_[0];

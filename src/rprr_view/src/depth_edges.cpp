@@ -39,9 +39,9 @@ void combine(const std::int16_t* __restrict values, std::ptrdiff_t away, int cou
   for (int u = 0; u < count; ++u) out[u] = kOf(values[u], values[u + away]);
 }
 
-// Of every `window` values that follow each other: windows of twice the size from two that touch,
-// at last from two that overlap. `values`, count + window - 1 of them, are lost, `spare` is as
-// long.
+// Finds the least or the largest of every `window` values that follow each other. A window of twice
+// the size comes from two windows that touch, and the last one from two that overlap. `values`
+// holds count + window - 1 values and is overwritten; `spare` is as long.
 template <const std::int16_t& (*kOf)(const std::int16_t&, const std::int16_t&)>
 void along_row(std::int16_t* values, std::int16_t* spare, int count, int window,
                std::int16_t* out) {

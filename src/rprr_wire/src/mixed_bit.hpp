@@ -86,7 +86,7 @@ class BitMixer {
 
   BitMixer() { weights_.fill(20000); }
 
-  /// Of a one, out of 65536; never 0 or 65536.
+  /// The probability of a one, times 65536; never 0 or 65536.
   int mix(const Estimates& estimates) {
     int sum = 0;
     for (std::size_t i = 0; i < N; ++i) {

@@ -48,8 +48,8 @@ class ColourLayers {
   /// The whole image, whatever is sent of it.
   Result<Bytes> encode_whole(int quality);
 
-  /// Of the detail: compact where that makes the image smaller, never with black fill (the
-  /// paper's).
+  /// How the detail layer's blocks are laid out: compact where that makes the image smaller, and
+  /// never with black fill (the paper's).
   ColourLayout layout() const { return layout_; }
   /// The frame's own.
   const cv::Mat& image() const { return bgr_; }

@@ -15,10 +15,10 @@ class CompactLayout {
  public:
   explicit CompactLayout(const BlockMask& mask);
 
-  /// Of the compact image, in pixels: multiples of 8; none if the mask has no block. Its area is
-  /// never beyond that of the mask's grid.
+  /// Size of the compact image [px]: multiples of 8, or 0x0 if the mask has no block. Its area is
+  /// at most that of the mask's grid.
   cv::Size size() const { return {used_.grid().width, used_.grid().height}; }
-  /// Of the compact image's grid: the blocks that hold one of the mask.
+  /// The blocks of the compact image that hold a block of the mask.
   const BlockMask& used() const { return used_; }
 
   /// Writes the mask's blocks of a CV_8UC3 image of the mask's size into the compact image; what is

@@ -19,7 +19,7 @@ class SmoothFill {
   /// is of the image's grid. Black where no block at all is sent.
   cv::Mat fill(const cv::Mat& bgr, const BlockMask& sent);
 
-  /// The same without a copy, of an image of which each pixel stands for reduction x reduction
+  /// Fills without a copy, in an image of which each pixel stands for reduction x reduction
   /// pixels of the mask's grid: 1, 2, 4 or 8. A block is 8 / reduction pixels wide and high. flat:
   /// each unknown block in one colour, for codecs of blocks that predict nothing but that.
   void fill_in_place(cv::Mat& bgr, const BlockMask& known, int reduction = 1, bool flat = false);
@@ -32,7 +32,7 @@ class SmoothFill {
 
 /// A copy with all pixels outside the mask's blocks black: the paper's.
 cv::Mat black_fill(const cv::Mat& bgr, const BlockMask& sent);
-/// The same without a copy, reduction as of SmoothFill.
+/// Blackens the pixels outside of the mask's blocks without a copy; reduction as in SmoothFill.
 void black_out(cv::Mat& bgr, const BlockMask& known, int reduction = 1);
 
 }  // namespace rprr

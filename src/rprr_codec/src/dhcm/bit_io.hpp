@@ -68,8 +68,8 @@ class BitWriter {
   int filled_ = 0;  // bits in the accumulator, below 32 between calls
 };
 
-/// The same without a branch a number, into room that the caller made: 8 bytes more than the bits
-/// take.
+/// Writes bits as BitWriter does, without a branch for each number.
+/// Precondition: the caller made room for 8 bytes more than the bits take.
 class PlainBitWriter {
  public:
   explicit PlainBitWriter(std::uint8_t* to) : at_(to) {}

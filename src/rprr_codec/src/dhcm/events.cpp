@@ -27,7 +27,7 @@ std::uint64_t bits_of_bytes(const std::uint8_t* bytes) {
 }
 
 constexpr int kParts = 4;
-// Of a segment; a narrow one is not worth the trouble.
+// In how many parts a segment is coded; a narrow one is not worth more than one.
 int parts_of(int begin, int end) {
   return end - begin >= 128 ? kParts : 1;
 }

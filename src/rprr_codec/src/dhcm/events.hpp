@@ -54,7 +54,7 @@ class EventCoder {
   std::array<std::uint32_t, kContexts> next_{};    // ordinal of the pixel behind the last event
   std::array<std::size_t, kContexts> last_event_{};
   std::array<std::array<std::uint32_t, kContexts>, 4> part_pixels_{};  // of a segment
-  // Of the row at hand, by column.
+  // The row that is being coded, by column.
   Surface current_;
   std::vector<std::uint8_t> north_;
   std::vector<std::int16_t> step_;

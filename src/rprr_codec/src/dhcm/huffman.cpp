@@ -172,7 +172,7 @@ bool DecodeTableOf<kSize>::build(const CodeLengthsOf<kSize>& lengths) {
 
 namespace {
 
-// Of how many lengths are listed.
+// Bits of the number that says how many lengths are listed.
 template <std::size_t kSize>
 constexpr int kCountBits = kSize < 64 ? 6 : 9;
 

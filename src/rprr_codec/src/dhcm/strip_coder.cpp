@@ -26,7 +26,7 @@ std::size_t near_index(std::uint16_t residual) {
   return static_cast<std::uint16_t>(residual + kNear);
 }
 
-// Of how many groups half say enough.
+// From so many groups on, tables that are fitted to half of them are good enough.
 constexpr std::size_t kLeastForHalf = 4096;
 
 struct Bits {

@@ -77,7 +77,7 @@ class StripReader {
   bool good_ = true;
   StripSurface surface_;
   std::vector<StripSegment> segments_;
-  // Of the segment at hand. Pixels that are not as guessed, as 8 times the column and the row.
+  // The segment that is being read. Pixels that are not as guessed, as 8 times the column plus row.
   std::array<std::vector<std::uint16_t>, kStripSides> missed_;
   std::array<std::size_t, kStripSides> missed_count_{};
   std::array<std::vector<std::uint8_t>, kStripRows> holes_;  // of its rows, by group

@@ -135,7 +135,7 @@ class StripCoder {
   StripSurface surface_;
   std::vector<StripSegment> segments_;
   std::array<Side, kStripSides> sides_;
-  // Of the row at hand: surface (one column further), holes, residuals and which of them count.
+  // The row that is being coded: surface (one column further), holes, residuals and which count.
   std::vector<std::int16_t> fill_;
   std::vector<std::uint8_t> holes_;
   std::vector<std::int16_t> residual_;

@@ -18,7 +18,7 @@ std::string encoding_after(const std::string& encoding) {
   return encoding == encodings::RGB8 || encoding == encodings::MONO8 ? encoding : encodings::BGR8;
 }
 
-// Of a format; bgr8 of one that nobody of ours wrote.
+// The encoding that a format names; bgr8 for formats that none of our publishers wrote.
 std::string encoding_in(const std::string& format) {
   return encoding_after(format.substr(0, format.find(';')));
 }

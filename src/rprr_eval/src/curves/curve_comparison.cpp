@@ -86,7 +86,7 @@ void add_shortfall(const PairCurves& pair, const MethodCurve& ours, const Method
   all.short_pairs.push_back(entry);
 }
 
-// The same at the bytes of each of the rival's points, of which every pair has as many.
+// Compares at the bytes of each point of the rival's curve. Every pair has as many points.
 json on_points(const Pairs& pairs, const std::string& codec) {
   json result = json::array();
   const MethodCurve* first = pairs.empty() ? nullptr : pairs.front()->find(codec);

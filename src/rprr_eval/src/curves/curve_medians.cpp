@@ -78,7 +78,7 @@ json medians_at_profile(const Pairs& pairs) {
   return result;
 }
 
-// The same place in every pair's list: the same quality, or budgets spread alike.
+// Points at the same place in every pair's list have the same quality, or budgets spread alike.
 json median_curves(const Pairs& pairs, double pixels) {
   json result = json::object();
   if (pairs.empty()) return result;

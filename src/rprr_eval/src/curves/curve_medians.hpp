@@ -14,9 +14,9 @@ using PairPointers = std::vector<const PairCurves*>;
 nlohmann::json median_or_null(const std::vector<double>& values);
 double share_of(std::size_t count, std::size_t all);
 
-/// Of every method that a profile speaks of.
+/// Medians of every method at the setting that the profile names.
 nlohmann::json medians_at_profile(const PairPointers& pairs);
-/// Of every method, point by point.
+/// Medians of every method, point by point of its curve.
 nlohmann::json median_curves(const PairPointers& pairs, double pixels);
 /// Predicted depth of ours and the paper's.
 nlohmann::json depth_over_pairs(const PairPointers& pairs);

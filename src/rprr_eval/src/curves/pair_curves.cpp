@@ -50,7 +50,7 @@ bool same_payloads(const EncodedFrame& one, const EncodedFrame& other) {
   return one.depth == other.depth && one.colour == other.colour && one.base == other.base;
 }
 
-// Of a pair, what our profile's decision asks b to send.
+// The blocks that the profile's decision asks b to send.
 cv::Mat new_content_of(const PreparedPair& pair) {
   return pair.outgoing.sparse ? pair.outgoing.mask.to_image()
                               : cv::Mat(pair.b->bgr.size(), CV_8UC1, cv::Scalar(255));

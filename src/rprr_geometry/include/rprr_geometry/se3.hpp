@@ -17,7 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Exponential map from se(3), paper eq. 4.
 Pose exp_se3(const Twist& twist);
-/// Its inverse, for rotations below pi.
+/// Logarithm to se(3), the inverse of exp_se3() for rotations below pi.
 Twist log_se3(const Pose& pose);
 /// Ad(T): exp(Ad(T) x) = T exp(x) T^-1.
 Matrix6 adjoint(const Pose& pose);

@@ -28,7 +28,7 @@ struct Pinhole {
         u >= 0.0f && v >= 0.0f && u < static_cast<float>(width) && v < static_cast<float>(height);
     return inside ? static_cast<int>(v) * width + static_cast<int>(u) : -1;
   }
-  /// Of the pixel that the ray (x, y, 1) meets.
+  /// Index of the pixel that the ray (x, y, 1) meets.
   int index_of_ray(float x, float y) const { return index(fx * x + cx, fy * y + cy); }
 };
 

@@ -27,7 +27,7 @@ class CameraCalibration {
   RgbdCalibration get(int width, int height, bool depth_needed);
   /// Whether a calibrator has set something since the last get().
   bool changed();
-  /// Of the colour camera as it was got: raw image in K and D, rectified one in P.
+  /// The colour camera's calibration as it came: the raw image in K and D, the rectified one in P.
   const sensor_msgs::CameraInfo& colour_info() const { return colour_info_; }
 
  private:

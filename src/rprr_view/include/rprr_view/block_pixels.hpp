@@ -7,7 +7,7 @@
 
 namespace rprr {
 
-// Of rectangles of a few pixels, for which cv::Mat's own do more to get going than to do.
+// For rectangles of a few pixels, where calls of cv::Mat's functions cost more than the pixels.
 
 /// Sets the pixels of a CV_8UC1 image.
 inline void set_pixels(cv::Mat& image, const cv::Rect& rect, std::uint8_t value) {

@@ -20,7 +20,8 @@ namespace rprr {
 class DepthCodec {
  public:
   virtual ~DepthCodec() = default;
-  /// Of a continuous CV_16UC1 image. False: it could not be done.
+  /// Codes an image. Precondition: it is a continuous CV_16UC1. Errors: false if it cannot be
+  /// coded.
   virtual bool encode(const cv::Mat& counts, Bytes& coded) = 0;
   /// Into a continuous CV_16UC1 image of the size that was encoded.
   virtual bool decode(ByteView coded, cv::Mat& counts) = 0;

@@ -17,9 +17,10 @@ class WholeColour {
  public:
   virtual ~WholeColour() = default;
   virtual std::string name() const = 0;
-  /// Settings of the codec's own scale, coarsest first, spread over all of it but what is lossless.
+  /// Settings on the codec's own scale, coarsest first, spread over all that are not lossless.
   virtual std::vector<double> settings() const = 0;
-  /// Of a continuous CV_8UC3 image (BGR), with what a payload on the radio needs: seal included.
+  /// Codes an image (BGR) as a payload for the radio, with its seal.
+  /// Precondition: a continuous CV_8UC3.
   virtual Result<Bytes> encode(const cv::Mat& bgr, double setting) = 0;
   virtual Result<cv::Mat> decode(ByteView payload, cv::Size size) = 0;
 };

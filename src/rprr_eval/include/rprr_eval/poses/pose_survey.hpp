@@ -78,7 +78,7 @@ struct PoseTally {
 
   void add(const PairRecord& record);
 };
-/// Of the records in that bin, or of all.
+/// Counts the records in that bin, or all records.
 PoseTally tally_of(const std::vector<PairRecord>& records, std::optional<std::size_t> bin);
 
 /// Two methods on the same pairs.

@@ -17,7 +17,7 @@ DepthCodecResult make_png(int level);
 DepthCodecResult make_jpeg_ls();
 /// JPEG XL of libjxl, lossless, its effort 1 (fastest) to 9.
 DepthCodecResult make_jpeg_xl(int effort);
-/// The same library's lossy colour; null where it was not built in.
+/// JPEG XL's lossy colour; null where the library was not built in.
 std::unique_ptr<WholeColour> make_jpeg_xl_colour(int effort);
 /// Zstandard over byte-split row deltas (row_deltas.hpp).
 DepthCodecResult make_zstd(int level);
