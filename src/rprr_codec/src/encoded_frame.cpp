@@ -39,7 +39,7 @@ bool get_text(ByteReader& reader, std::string& text) {
 // parser refuses what is not rigid.
 constexpr double kTranslationSteps = static_cast<double>(std::int64_t{1} << 27);
 constexpr double kRotationSteps = static_cast<double>(std::int64_t{1} << 47);
-constexpr double kMaxTranslation = 1e6;  // metres
+constexpr double kMaxTranslation = 1e6;  // [m]
 
 std::int64_t steps_of(double value, double steps) {
   const double scaled = value * steps;

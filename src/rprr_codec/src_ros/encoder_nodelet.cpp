@@ -36,7 +36,7 @@
 namespace rprr {
 namespace {
 
-constexpr std::size_t kLongestControl = 65536;  // bytes; no message of an exchange comes near it
+constexpr std::size_t kLongestControl = 65536;  // [bytes] no message of an exchange comes near it
 constexpr Duration kTellAgain = from_seconds(1.0);
 
 std::vector<Stamp> to_stamps(const std::vector<ros::Time>& times) {

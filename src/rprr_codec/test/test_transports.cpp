@@ -27,7 +27,7 @@ namespace encodings = sensor_msgs::image_encodings;
 
 constexpr int kWidth = 164;
 constexpr int kHeight = 122;
-constexpr double kPatience = 20.0;  // seconds, for processes that start and stop
+constexpr double kPatience = 20.0;  // [s] for processes that start and stop
 
 cv::Mat depth_counts() {
   return synthetic::kinect_like(kWidth, kHeight).counts;

@@ -17,7 +17,7 @@
 namespace rprr {
 namespace {
 
-constexpr double kPatience = 20.0;  // seconds; a pair takes a fraction of one
+constexpr double kPatience = 20.0;  // [s] a pair takes a fraction of one
 
 template <typename T>
 std::uint32_t bytes_of(const boost::shared_ptr<T>& message) {

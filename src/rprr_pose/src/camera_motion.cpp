@@ -14,7 +14,7 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kLeastSide = 32;           // pixels
+constexpr int kLeastSide = 32;           // [px]
 constexpr double kFewestReadings = 0.1;  // of a view's cells
 // What a still camera's frames may seem to have moved, beyond its noise in this alignment.
 constexpr double kStillMetres = 0.01;
@@ -28,7 +28,7 @@ constexpr double kFewestConsistent = 0.8;
 constexpr double kMostViolating = 0.06;
 constexpr double kMargin = 0.3;
 constexpr double kLeastEvidence = 1.0;  // log odds
-constexpr double kLeastTexture = 4.0;   // grey levels: with less luma does not tell
+constexpr double kLeastTexture = 4.0;   // [grey levels] with less luma does not tell
 constexpr double kLeastOverlap = 0.2;
 constexpr double kTurn = 9.0 * kDegree;  // between starts
 

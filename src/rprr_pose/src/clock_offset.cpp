@@ -11,7 +11,7 @@ constexpr std::size_t kSamples = 32;
 constexpr Duration kLongest = from_seconds(60.0);  // clocks of robots drift by some ms in that time
 constexpr double kMostSeconds = 1e9;               // apart: a robot without a clock starts in 1970
 constexpr double kLongestWay = 60.0;               // seconds there and back
-constexpr double kDrift = 0.01;                    // seconds; of clocks that are kept together
+constexpr double kDrift = 0.01;                    // [s] of clocks that are kept together
 
 }  // namespace
 

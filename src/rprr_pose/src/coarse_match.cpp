@@ -9,7 +9,7 @@
 namespace rprr {
 namespace {
 
-constexpr float kNearest = 0.1f;  // metres
+constexpr float kNearest = 0.1f;  // [m]
 // Variance that counts as noise, so that flat patches do not correlate by chance, grey levels^2.
 constexpr float kFlatVariance = 20.0f;
 // Metres: what a camera's intrinsics throw further than that stays numbers in no projection.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kSmallestC = 1e-3;
 // Correspondences this many times c apart carry no information about a smooth surface (by_noise).
 constexpr double kGate = 4.0;
-constexpr double kGateFloor = 0.03;  // metres
+constexpr double kGateFloor = 0.03;  // [m]
 
 // Two depths of one surface seen from two places: the tolerance that defines overlap.
 double depth_tolerance(double z) {

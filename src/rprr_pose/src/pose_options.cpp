@@ -7,7 +7,7 @@ namespace rprr {
 namespace {
 
 constexpr OptionRange kShare = {0.0, 1.0};
-constexpr OptionRange kTimeout = {0.01, 60.0};  // seconds
+constexpr OptionRange kTimeout = {0.01, 60.0};  // [s]
 
 void list_preview(PreviewOptions& o, OptionTable& table) {
   PreviewLimits& limits = o.search.limits;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t kVersion = 1;
 constexpr std::uint8_t kRequest = 0;
 constexpr std::uint8_t kHalf = 1;
-constexpr double kFarthest = 1e3;  // metres: no two cameras of an exchange are further apart
+constexpr double kFarthest = 1e3;  // [m] no two cameras of an exchange are further apart
 
 void put_start(ByteWriter& writer, std::uint8_t kind, std::uint8_t iteration) {
   writer.put(kVersion);

@@ -15,7 +15,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kQueue = 200;          // jobs; an exchange is a few dozen messages at most
-constexpr std::size_t kLongestData = 65536;  // bytes; no message of an exchange comes near it
+constexpr std::size_t kLongestData = 65536;  // [bytes] no message of an exchange comes near it
 const ros::WallDuration kTick(0.02);
 constexpr Duration kRadioSilence = from_seconds(5.0);  // its state comes every second
 

@@ -6,7 +6,7 @@
 namespace rprr {
 namespace {
 
-constexpr double kQuiet = 2.0;  // seconds; a station's receipts come every second
+constexpr double kQuiet = 2.0;  // [s] a station's receipts come every second
 constexpr Duration kProbePeriod = from_seconds(0.5);
 constexpr Duration kIdlePeriod =
     from_seconds(5.0);                         // while the host answers but has nothing to say

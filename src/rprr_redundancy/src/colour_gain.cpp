@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr float kTukey = 4.685f;      // 95% efficiency on Gaussian noise
-constexpr float kLeastSpread = 1.0f;  // grey levels; below is quantisation
+constexpr float kLeastSpread = 1.0f;  // [grey levels] below is quantisation
 
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

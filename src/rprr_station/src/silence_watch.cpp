@@ -6,7 +6,7 @@
 namespace rprr {
 namespace {
 
-constexpr double kLeastSilence = 3.0;  // seconds
+constexpr double kLeastSilence = 3.0;  // [s]
 constexpr double kIntervals = 4.0;
 constexpr double kSmoothing = 0.3;
 

@@ -36,7 +36,7 @@
 namespace rprr {
 namespace {
 
-constexpr std::size_t kLongestChunk = 16384;  // bytes; a longer message is a frame in one piece
+constexpr std::size_t kLongestChunk = 16384;  // [bytes] a longer message is a frame in one piece
 constexpr std::size_t kChunksOfAFrame = 32;   // that may wait, of each frame that may
 constexpr unsigned kTicksOfReceipts = 5;      // between receipts that nothing else causes
 constexpr double kClocksApart = 20.0;         // milliseconds; the pairing of frames suffers

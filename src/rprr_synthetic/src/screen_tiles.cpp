@@ -8,8 +8,8 @@ namespace {
 constexpr float kNearPlane = 0.02f;
 
 struct Bounds {
-  float left = kNoHit, top = kNoHit, right = -kNoHit, bottom = -kNoHit;  // pixels
-  float nearest = kNoHit;                                                // metres
+  float left = kNoHit, top = kNoHit, right = -kNoHit, bottom = -kNoHit;  // [px]
+  float nearest = kNoHit;                                                // [m]
 
   void add(const Eigen::Vector3f& p, const Camera& camera) {
     const Eigen::Vector2d pixel = camera.project(p.cast<double>());

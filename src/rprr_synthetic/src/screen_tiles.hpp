@@ -24,7 +24,7 @@ class ScreenTiles {
     float nearest;  // no point of the solid has less depth
   };
 
-  static constexpr int kSide = 16;  // pixels
+  static constexpr int kSide = 16;  // [px]
 
   const std::vector<PlacedPrimitive>& placed_;
   int columns_;

@@ -36,7 +36,7 @@ std::vector<PlacedPrimitive> within_tile(const std::vector<PlacedPrimitive>& pla
                                          int top) {
   const int last = kShadowTile - 1;
   const Eigen::Vector3f axis = shadow_direction(left + kShadowTile / 2, top + kShadowTile / 2);
-  float cone = 0.0f;  // rad
+  float cone = 0.0f;  // [rad]
   for (const int row : {top, top + last}) {
     for (const int column : {left, left + last}) {
       const float cosine = std::min(axis.dot(shadow_direction(column, row)), 1.0f);

@@ -59,8 +59,8 @@ std::vector<PairPose> pair_walk(int frames, std::uint32_t seed) {
   for (int k = 0; k < frames; ++k) {
     const double wave = 0.5 + 0.5 * std::sin(0.9 * k + phase);
     const double away = excursion(k);
-    const double side = 0.06 + 0.15 * wave + 0.10 * away;           // metres
-    const double yaw = (3.0 + 5.5 * wave + 12.0 * away) * kDegree;  // rad
+    const double side = 0.06 + 0.15 * wave + 0.10 * away;           // [m]
+    const double yaw = (3.0 + 5.5 * wave + 12.0 * away) * kDegree;  // [rad]
     const double pitch = 2.0 * kDegree * std::sin(1.7 * k + phase);
     Pose a_from_b = Pose::Identity();
     a_from_b.translation() =

@@ -10,7 +10,7 @@
 namespace rprr {
 namespace {
 
-constexpr int kOffsetCell = 16;  // pixels
+constexpr int kOffsetCell = 16;  // [px]
 
 // Where a pixel lies in an image of `scale` times the size, in its pixels.
 float place_of(int pixel, float scale, int count) {

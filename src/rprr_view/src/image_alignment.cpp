@@ -9,8 +9,8 @@ namespace rprr {
 namespace {
 
 constexpr int kIterations = 3;
-constexpr float kLargestStep = 1.0f;   // pixels, in an iteration
-constexpr float kLargestShift = 3.0f;  // pixels
+constexpr float kLargestStep = 1.0f;   // [px] in an iteration
+constexpr float kLargestShift = 3.0f;  // [px]
 constexpr float kPrior = 0.01f;        // of the mean square difference: shifts of about a pixel
 constexpr float kLeastPrior = 0.2f;
 

@@ -11,7 +11,7 @@ namespace rprr {
 namespace {
 
 constexpr std::array<int, 7> kPaperQualities = {12, 10, 8, 7, 6, 5, 4};  // of PGF, coarsest first
-constexpr double kLeastRange = 60e3;  // bytes: budgets go so far at least
+constexpr double kLeastRange = 60e3;  // [bytes] budgets go so far at least
 
 using Figure = std::function<std::optional<double>(const RatePoint&)>;
 

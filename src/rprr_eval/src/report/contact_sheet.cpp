@@ -6,7 +6,7 @@
 namespace rprr {
 namespace {
 
-constexpr int kCaption = 30;  // pixels
+constexpr int kCaption = 30;  // [px]
 constexpr int kGap = 6;
 constexpr int kColumns = 2;
 

@@ -11,8 +11,8 @@ constexpr int kMaxImageSide = 8192;
 /// A pinhole camera without distortion (images are rectified before they come here). Optical frame
 /// of REP-103: x right, y down, z forward. Pixel centres have integer coordinates.
 struct Camera {
-  int width = 0;    // pixels
-  int height = 0;   // pixels
+  int width = 0;    // [px]
+  int height = 0;   // [px]
   double fx = 0.0;  // focal lengths, pixels
   double fy = 0.0;
   double cx = 0.0;  // principal point, pixels

@@ -16,7 +16,7 @@ class ClockOffset {
  public:
   struct Estimate {
     double offset = 0.0;       // seconds that the peer's clock is ahead of this one
-    double uncertainty = 0.0;  // seconds; half of the way there and back
+    double uncertainty = 0.0;  // half of the way there and back [s]
   };
 
   /// there: when the question came, by the peer's clock, less when it left, by this robot's [s].

@@ -12,7 +12,7 @@ namespace rprr {
 /// The points of a view that take part in an alignment: those with depth, every stride-th cell in a
 /// staggered pattern. One entry a point.
 struct MovingPoints {
-  std::vector<float> x, y, z;   // metres, optical frame of the moving view
+  std::vector<float> x, y, z;   // optical frame of the moving view [m]
   std::vector<float> variance;  // of z, metres^2
   std::vector<float> luma;
   std::vector<std::uint16_t> tile;  // which patch of the view the point is in
@@ -37,7 +37,7 @@ struct FixedView {
 
 struct AlignmentOptions {
   int iterations = 8;
-  float gate = 0.3f;        // metres: correspondences further apart do not count, in the first step
+  float gate = 0.3f;        // correspondences further apart do not count in the first step [m]
   float last_gate = 0.08f;  // in the last one
   // Luma residuals, grey levels. Their spread is taken from the residuals themselves, within these
   // bounds: coding and noise below, views that are not aligned yet above.
@@ -52,7 +52,7 @@ struct AlignmentSums {
   Matrix6 geometric = Matrix6::Zero();    // the part of it that depth alone gives
   double chi2_geometry = 0.0;             // sum of squared residuals over their variance
   double chi2_luma = 0.0;
-  double luma_sigma = 0.0;  // grey levels, what chi2_luma is in units of
+  double luma_sigma = 0.0;  // what chi2_luma is in units of [grey levels]
   /// Sum over tiles of g g^T, g being the tile's gradient at the final pose: what residuals that
   /// neighbours share do to the estimate (a cluster-robust covariance is H^-1 scatter H^-1).
   Matrix6 scatter = Matrix6::Zero();

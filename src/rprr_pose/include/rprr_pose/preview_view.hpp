@@ -13,7 +13,7 @@ namespace rprr {
 /// cell, row by row.
 struct PreviewView {
   Camera camera;                  // of the cells: pixel (c, r) is the centre of cell (c, r)
-  std::vector<float> z;           // metres, 0 = no reading
+  std::vector<float> z;           // [m]; 0 = no reading
   std::vector<float> x, y;        // the cell's point, metres, optical frame
   std::vector<float> nx, ny, nz;  // surface normal towards the camera; 0 0 0 where there is none
   std::vector<float> luma;        // 0 to 255

@@ -34,8 +34,8 @@ class Registration {
 /// When an iterative method stops. The thresholds of Lui et al. are not public; these are ours.
 struct IterationLimits {
   int max_iterations = 50;              // paper
-  double converged_translation = 1e-3;  // metres
-  double converged_rotation = 1e-3;     // rad
+  double converged_translation = 1e-3;  // [m]
+  double converged_rotation = 1e-3;     // [rad]
 
   bool reached_by(const Twist& step) const {
     return step.head<3>().norm() < converged_translation &&

@@ -17,7 +17,8 @@ namespace rprr {
 struct SamplesOptions {
   int sample_count = kSampleCount;      // points a robot sends
   int max_iterations = 20;              // from a local start a few are enough; the paper: 50
-  double converged_translation = 1e-3;  // metres; ours, those of Lui et al. are not public
+  double converged_translation = 1e-3;  // a smaller step ends the iteration [m]; ours, since
+                                        // those of Lui et al. are not public
   double converged_rotation = 1e-3;     // a smaller step ends the iteration [rad]
   bool resample = false;    // new points in every iteration (paper) or one set for an exchange
   bool by_noise = true;     // see IcpWeights

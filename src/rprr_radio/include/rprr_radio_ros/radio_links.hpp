@@ -38,7 +38,7 @@ class RadioLinks {
 
   struct State {
     std::size_t renewed = 0;                       // subscriptions so far
-    std::map<std::string, double> unanswered_for;  // seconds, of hosts out of reach
+    std::map<std::string, double> unanswered_for;  // hosts out of reach, and for how long [s]
   };
   State state() const;
 

@@ -29,9 +29,9 @@ struct DecisionOptions {
   /// Depths agree if this share of the block's warped pixels lies within the tolerance of the
   /// preview's depth. Low, so that blocks across an edge agree through either of their surfaces.
   float least_agreement = 0.25f;
-  float depth_tolerance = 0.02f;         // metres
+  float depth_tolerance = 0.02f;         // [m]
   float depth_tolerance_share = 0.015f;  // of the depth; both sensors' sigma is added
-  float colour_tolerance = 8.0f;         // grey levels: the preview's coding noise
+  float colour_tolerance = 8.0f;         // the preview's coding noise [grey levels]
   float colour_sigmas = 4.0f;            // of the robust spread of the frame's blocks
 };
 

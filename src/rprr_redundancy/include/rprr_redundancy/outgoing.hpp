@@ -27,7 +27,7 @@ struct OutgoingOptions {
   Duration prediction_timeout = from_seconds(1.0);  // after the pose was accepted
   std::size_t waiting = 8;                          // frames that may wait for their prediction
   std::size_t early_predictions = 8;                // predictions that came before their event
-  std::size_t largest_mask = std::size_t{1} << 17;  // bytes; what is longer is malformed
+  std::size_t largest_mask = std::size_t{1} << 17;  // a longer mask is malformed [bytes]
 };
 
 /// What b sends of one of its frames.

@@ -21,9 +21,9 @@ struct PlayerOptions {
   int wait_for_subscribers = 1;
   double wait_timeout = 30.0;  // s of wall time; negative: without end
   RecordingOptions recording;  // its camera is made from the next
-  double fx = 0.0;             // pixels; 0: the source's own camera
-  double fy = 0.0;             // pixels; 0: as fx
-  double cx = -1.0;            // pixels; negative: the image's centre
+  double fx = 0.0;             // [px]; 0: the source's own camera
+  double fy = 0.0;             // [px]; 0: as fx
+  double cx = -1.0;            // [px]; negative: the image's centre
   double cy = -1.0;
   int width = 640;
   int height = 480;

@@ -25,7 +25,7 @@ struct SceneCloudOptions {
 };
 
 struct ScenePoint {
-  Eigen::Vector3f position;  // metres, in the reference's optical frame
+  Eigen::Vector3f position;  // in the reference's optical frame [m]
   std::array<std::uint8_t, 3> bgr;
 };
 

@@ -45,7 +45,7 @@ struct Material {
 struct Primitive {
   Shape shape = Shape::box;
   Pose world_from_local = Pose::Identity();
-  Eigen::Vector3d half_size = Eigen::Vector3d::Constant(0.5);  // metres
+  Eigen::Vector3d half_size = Eigen::Vector3d::Constant(0.5);  // [m]
   Material material;
 };
 

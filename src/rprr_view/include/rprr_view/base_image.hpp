@@ -11,7 +11,7 @@ struct BaseImage {
   /// (cells at the right and lower rim may be cut). Empty: there is no base.
   cv::Mat bgr;
   int reduction = 1;   // 1, 2, 4, 8 or 16
-  float noise = 8.0f;  // grey levels: RMS of its coding error, as its sender states it
+  float noise = 8.0f;  // RMS of its coding error, as its sender states it [grey levels]
 
   bool empty() const { return bgr.empty(); }
   /// Whether it is a base of a frame of this size.

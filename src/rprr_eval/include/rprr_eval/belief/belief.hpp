@@ -23,7 +23,7 @@ struct BeliefOptions {
   int pairs_per_scene = 8;
   double max_degrees = 60.0;  // of the motions
   double max_metres = 1.2;
-  int width = 640;  // pixels
+  int width = 640;  // [px]
 };
 
 /// Pairs of each scene, and as many of frames from two different scenes, all searched cold. Those

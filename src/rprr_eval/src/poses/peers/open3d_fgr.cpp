@@ -17,7 +17,7 @@ namespace {
 namespace o3d = open3d::geometry;
 namespace reg = open3d::pipelines::registration;
 
-constexpr double kVoxel = 0.05;  // metres
+constexpr double kVoxel = 0.05;  // [m]
 constexpr int kStride = 2;
 constexpr std::size_t kFewestPoints = 50;
 constexpr double kFewestInliers = 0.3;  // share of a's voxels near one of b's: then converged

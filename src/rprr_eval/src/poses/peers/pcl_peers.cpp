@@ -19,7 +19,7 @@ namespace rprr {
 namespace {
 
 constexpr int kStride = 4;
-constexpr double kReach = 0.3;  // metres
+constexpr double kReach = 0.3;  // [m]
 constexpr int kMaxIterations = 50;
 constexpr std::size_t kFewestPoints = 50;
 
