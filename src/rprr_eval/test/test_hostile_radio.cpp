@@ -378,7 +378,7 @@ TEST(HostileRadio, ReceiptsOfAnybodyLeaveTheQueueAlone) {
     for (int i = 0; i < 20 && queue.next_to_send(now); ++i) {
     }
     EXPECT_TRUE(std::isfinite(queue.backlog(now)));
-    EXPECT_LE(queue.room(now).references.size(), 64u);
+    EXPECT_LE(queue.link_state(now).references.size(), 64u);
   });
   // A frame of its own goes out in the end.
   const SteadyTime later = steady_seconds(1e6);
