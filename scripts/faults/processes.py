@@ -8,7 +8,6 @@ the radio are remapped, so that who hears them on another host hears them throug
 import os
 import pathlib
 import signal
-import socket
 import subprocess
 import time
 import xmlrpc.client
@@ -16,6 +15,8 @@ import xmlrpc.client
 import roslaunch.config
 import roslaunch.xmlloader
 import roslib.packages
+
+from ports import free_port
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 A, B = "eyebug_a", "eyebug_b"
@@ -33,12 +34,6 @@ def wait_for(condition, seconds, period=0.02):
             return True
         time.sleep(period)
     return condition()
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 def clock_topic(host):

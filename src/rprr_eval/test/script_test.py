@@ -14,6 +14,9 @@ import xml.etree.ElementTree as ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPTS = ROOT / "scripts"
+sys.path.append(str(SCRIPTS / "faults"))
+
+from ports import free_port  # noqa: E402,F401: tests of scripts take it from here
 
 
 def wait_for(condition, seconds):

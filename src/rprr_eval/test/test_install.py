@@ -11,7 +11,6 @@ import os
 import pathlib
 import re
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
@@ -20,6 +19,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 import script_test
+from script_test import free_port
 
 SOURCES = script_test.ROOT / "src"
 PACKAGES = sorted(file.parent.name for file in SOURCES.glob("*/package.xml"))
@@ -28,12 +28,6 @@ BUILD = (pathlib.Path(sys.argv[1]).resolve().parents[3] if len(sys.argv) > 1
          else script_test.ROOT / "build")
 PATHS = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PKG_CONFIG_PATH", "PYTHONPATH",
          "ROS_PACKAGE_PATH", "ROSLISP_PACKAGE_DIRECTORIES")
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 def within(folder, path):

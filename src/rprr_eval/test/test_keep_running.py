@@ -6,7 +6,6 @@ import os
 import pathlib
 import shutil
 import signal
-import socket
 import subprocess
 import tempfile
 import time
@@ -14,15 +13,9 @@ import unittest
 import xmlrpc.client
 
 import script_test
-from script_test import wait_for
+from script_test import free_port, wait_for
 
 KEEP = str(script_test.SCRIPTS / "keep_running")
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 class KeepRunning(unittest.TestCase):
