@@ -41,14 +41,17 @@ bool find_data(const topic_tools::ShapeShifter& shape, ChannelMessage& message) 
   return true;
 }
 
-// A pose has plain fields: from the status on, up to the length of the camera.
+// A pose has plain fields from the status on, up to the length of the camera. Behind the camera
+// come bytes_spent and the checksum.
 bool find_pose(const topic_tools::ShapeShifter& shape, ChannelMessage& message) {
   using Pose = rprr_msgs::RelativePose;
   if (shape.getDataType() != ros::message_traits::datatype<Pose>()) return false;
   const auto pose = shape.instantiate<Pose>();
   message.flip_from = ros::serialization::serializationLength(pose->header) + sizeof(double) + 4 +
                       pose->dependent.size() + sizeof(pose->exchange);
-  message.flip_count = 1 + 7 * sizeof(double) + 21 * sizeof(float);
+  const std::size_t camera = 4 + pose->reference_camera.size();
+  message.flip_count = shape.size() - message.flip_from - camera - sizeof(pose->bytes_spent) -
+                       sizeof(pose->checksum);
   return true;
 }
 

@@ -35,8 +35,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// The numbers of the search were chosen for right poses per millisecond with `rprr_eval poses` and
-// `rprr_eval timing`: the tables of docs/pose.md show what they give.
+// The numbers of the search weigh right poses against time. `rprr_eval poses` and `rprr_eval
+// timing` print what they give (docs/pose.md).
 
 constexpr SearchStage kFirstStage{3, 6, 0.6f, 0.25f, 40, 0.04, 1.5};  // at half resolution
 constexpr SearchStage kSecondStage{2, 5, 0.5f, 0.2f, 14, 0.05, 2.0};  // at half resolution
@@ -51,8 +51,8 @@ constexpr double kSlideStep = 0.25;  // [m] how far luma can tell
 constexpr double kMetresPerRadian =
     2.0;                         // [m] at this distance a turn moves what is seen as a step
 constexpr double kRival = 0.75;  // of a warm pose's score: another pose that scores more is a rival
-// Two poses that differ by more than either of these are different answers: twice what counts as a
-// right pose (8 cm, 3 degrees).
+// Two poses that differ by more than either of these are different answers: about twice what counts
+// as a right pose (8 cm, 3 degrees).
 constexpr double kDistinctMetres = 0.15;
 constexpr double kDistinctDegrees = 6.0;
 

@@ -11,8 +11,8 @@ namespace rprr {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-// The numbers of the search were chosen for right poses per millisecond with `rprr_eval poses` and
-// `rprr_eval timing`: the tables of docs/pose.md show what they give.
+// The numbers of the search weigh right poses against time. `rprr_eval poses` and `rprr_eval
+// timing` print what they give (docs/pose.md).
 
 // A starting pose with a smaller overlap, as a share of the moving view's cells, is dropped.
 constexpr float kLeastOverlap = 0.12f;
