@@ -80,8 +80,12 @@ class EncoderNodelet : public nodelet::Nodelet {
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
     timer_ = nh.createWallTimer(tick(), &EncoderNodelet::on_timer, this);
-    live_ = std::make_unique<LiveOptions>(private_nh, table_of(options_), *health_,
-                                          [this] { return on_change(); });
+    live_ = std::make_unique<LiveOptions>(
+        private_nh, table_of(options_),
+        [this](const std::string& reason) {
+          health_->warn("reconfiguration", "refused: " + reason);
+        },
+        [this] { return on_change(); });
     subscribe(nh, prefix);
     if (options_.link_recovery) {
       links_ = RadioLinks::look_after({receipts_.getTopic()});

@@ -210,6 +210,18 @@ TEST(Transports, ColourComesBackAsFineAsAskedFor) {
   config.ints[0].value = 0;
   ASSERT_TRUE(reconfigure("/colour/pgf", config));
   EXPECT_TRUE(holds(trip.send(encodings::RGB8, bgr), encodings::RGB8, bgr));
+
+  config.ints[0].value = 31;  // out of range: nothing changes
+  ASSERT_TRUE(reconfigure("/colour/pgf", config));
+  EXPECT_TRUE(holds(trip.send(encodings::RGB8, bgr), encodings::RGB8, bgr));
+}
+
+TEST(Transports, WrongParametersLeaveTheDefaults) {
+  Trip trip("depth", "/out/misspelt");
+  const cv::Mat counts = depth_counts();
+  const auto message = listen("/misspelt/dhcm", [&] { trip.send("16UC1", counts); });
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->format, "16UC1; dhcm default");  // a row of transports.test asks for small
 }
 
 TEST(Transports, MessagesSayWhatTheyAre) {

@@ -192,7 +192,7 @@ int run_info(const Arguments& arguments) {
 // --- command line
 
 void add_files(CLI::App& command, Arguments& arguments, bool writes) {
-  command.add_option("input", arguments.inputs, "files and folders; folders with all below")
+  command.add_option("input", arguments.inputs, "files, or folders with all that is below them")
       ->required();
   if (!writes) return;
   command.add_option("-o,--output", arguments.output,
@@ -204,15 +204,19 @@ void add_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
   CLI::App* encode = app.add_subcommand(
       "encode", "16-bit PNG, PGM or TIFF, float TIFF (metres) and raw files to .dhcm");
   add_files(*encode, arguments, true);
-  encode->add_option("-m,--mode", arguments.mode, "between speed and size")
+  encode
+      ->add_option("-m,--mode", arguments.mode,
+                   "fast, default or small: speed against size; all are lossless")
       ->check(CLI::IsMember({"fast", "default", "small"}))
       ->capture_default_str();
-  encode->add_option("--unit", arguments.unit, "metres per count of 16-bit images, for the record")
+  encode
+      ->add_option("--unit", arguments.unit,
+                   "metres per count of 16-bit images; only noted in the file")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   encode
       ->add_option("--step", arguments.step,
-                   "round float depth to whole steps of so many metres; 0 is lossless")
+                   "round float depth to whole steps of this many metres; 0 is lossless")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   CLI::Option* raw = encode->add_option(
@@ -226,10 +230,10 @@ void add_commands(CLI::App& app, Arguments& arguments, int& exit_code) {
   CLI::App* decode = app.add_subcommand(
       "decode", ".dhcm files to PNG (counts) and TIFF (float metres), or raw files");
   add_files(*decode, arguments, true);
-  decode->add_flag("--raw", arguments.to_raw, "little-endian pixels without a header");
+  decode->add_flag("--raw", arguments.to_raw, "write little-endian pixels without a header");
   decode->callback([&] { exit_code = run_decode(arguments); });
 
-  CLI::App* info = app.add_subcommand("info", "what .dhcm files say of themselves");
+  CLI::App* info = app.add_subcommand("info", "prints what .dhcm files say about themselves");
   add_files(*info, arguments, false);
   info->callback([&] { exit_code = run_info(arguments); });
 }

@@ -21,6 +21,7 @@
 #include "rprr_eval/measure/metrics.hpp"
 #include "rprr_eval/report/contact_sheet.hpp"
 #include "rprr_ros/conversions.hpp"
+#include "rprr_ros/parameters.hpp"
 
 namespace rprr {
 namespace {
@@ -59,15 +60,31 @@ Pose pose_of(const geometry_msgs::PoseStamped& message) {
   return make_pose({p.x, p.y, p.z}, {q.x, q.y, q.z, q.w});
 }
 
+struct ReportOptions {
+  std::string a = "eyebug_a";
+  std::string b = "eyebug_b";
+  std::string output = ".";
+  double timeout = 120.0;  // [s]
+  std::size_t exchanges = 15;
+};
+
+void list_options(ReportOptions& o, OptionTable& table) {
+  table.robot("a", o.a, "The robot whose frames go out whole").as_wiring();
+  table.robot("b", o.b, "The robot that sends only what the other does not see").as_wiring();
+  table.text("output", o.output, "Folder of what is written").as_wiring();
+  table.number("timeout", o.timeout, {1.0, 86400.0}, "s", "It ends after this in any case")
+      .as_wiring();
+  table.whole("exchanges", o.exchanges, {1, 100000}, "", "It ends after so many").as_wiring();
+}
+
 class DemoReport {
  public:
-  DemoReport()
-      : private_nh_("~"),
-        a_(private_nh_.param<std::string>("a", "eyebug_a")),
-        b_(private_nh_.param<std::string>("b", "eyebug_b")),
-        output_(private_nh_.param<std::string>("output", ".")),
-        timeout_(private_nh_.param("timeout", 120.0)),
-        log_(static_cast<std::size_t>(std::max(1, private_nh_.param("exchanges", 15)))) {
+  explicit DemoReport(const ReportOptions& options)
+      : a_(options.a),
+        b_(options.b),
+        output_(options.output),
+        timeout_(options.timeout),
+        log_(options.exchanges) {
     listen<sensor_msgs::Image>("/" + a_ + "/camera/rgb/image_rect_color",
                                [this](const auto& m) { rgb_a_.add(m); });
     listen<sensor_msgs::Image>("/" + b_ + "/camera/rgb/image_rect_color",
@@ -210,7 +227,6 @@ class DemoReport {
     record.ms_encode = s.ms_encode;
     record.ms_decode = s.ms_decode;
     record.ms_reconstruct = s.ms_reconstruct;
-    record.latency_ms = s.latency_ms;
     const cv::Mat view = pixels_of(rebuilt);
     const cv::Mat truth = pixels_of(rgb_b_.at(s.header.stamp));
     if (!view.empty() && view.size() == truth.size()) record.psnr = psnr(view, truth);
@@ -223,7 +239,6 @@ class DemoReport {
   }
 
   ros::NodeHandle nh_;
-  ros::NodeHandle private_nh_;
   std::string a_, b_, output_;
   double timeout_;
   ExchangeLog log_;
@@ -241,7 +256,13 @@ class DemoReport {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "demo_report");
-  rprr::DemoReport report;
+  rprr::ReportOptions options;
+  const std::string wrong = rprr::read_parameters(ros::NodeHandle("~"), rprr::options_of(options));
+  if (!wrong.empty()) {
+    ROS_FATAL_STREAM("wrong parameters: " << wrong);
+    return 1;
+  }
+  rprr::DemoReport report(options);
   report.watch();
   return report.write() ? 0 : 1;
 }

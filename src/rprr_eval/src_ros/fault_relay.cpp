@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bad radio for tests: passes topics on under a prefix, and does to their messages what
-// FaultChannel can do, as set by dynamic_reconfigure (cfg/FaultRelay.cfg).
+// FaultChannel can do, as set by dynamic_reconfigure. Its parameters: list_options() below.
 //
-// Parameters: ~topics (list of names), ~prefix (default /relayed), ~seed (default 1). Topic /x
-// comes out as /relayed/x; whoever is to hear it through the relay remaps /x to that. Bits are
-// flipped in the data of RPRR's radio messages only: a wrong length of an array would cost the
+// Topic /x comes out as /relayed/x; whoever is to hear it through the relay remaps /x to that. Bits
+// are flipped in the data of RPRR's radio messages only: a wrong length of an array would cost the
 // receiver gigabytes inside of roscpp, which is not what is tested.
-#include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
-#include <rprr_eval/FaultRelayConfig.h>
 #include <rprr_msgs/BlockMask.h>
 #include <rprr_msgs/BlockPreview.h>
 #include <rprr_msgs/EncodedFrame.h>
@@ -24,13 +21,40 @@
 #include <vector>
 
 #include "rprr_eval/exchange/fault_channel.hpp"
+#include "rprr_ros/live_options.hpp"
+#include "rprr_ros/parameters.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_wire/bytes.hpp"
 
 namespace rprr {
 namespace {
 
-using rprr_eval::FaultRelayConfig;
+struct RelayOptions {
+  std::vector<std::string> topics;
+  std::string prefix = "/relayed";
+  int seed = 1;
+  std::string only;
+  Faults faults;
+};
+
+void list_options(RelayOptions& o, OptionTable& table) {
+  constexpr OptionRange kShare{0.0, 1.0};
+  constexpr OptionRange kLongest{0.0, 60.0};
+  Faults& f = o.faults;
+  table.texts("topics", o.topics, "Topics that pass, by their full names").as_wiring();
+  table.text("prefix", o.prefix, "Topic /x comes out as PREFIX/x").as_wiring();
+  table.whole("seed", o.seed, {0, 1e6}, "", "The same seed makes the same faults").as_wiring();
+  table.text("only", o.only, "Faults are of topics that contain this text; empty: of all")
+      .as_live();
+  table.flag("down", f.down, "Nothing passes").as_live();
+  table.number("lose", f.lose, kShare, "", "Share of messages that are lost").as_live();
+  table.number("duplicate", f.duplicate, kShare, "", "Share that come twice").as_live();
+  table.number("reorder", f.reorder, kShare, "", "Share that come `late` later").as_live();
+  table.number("corrupt", f.corrupt, kShare, "", "Share in which bits of the data are flipped")
+      .as_live();
+  table.seconds("delay", f.delay, kLongest, "Of every message").as_live();
+  table.seconds("late", f.late, kLongest, "Of duplicates and of what is reordered").as_live();
+}
 
 // The bytes of data, which come last in these messages.
 template <typename Message>
@@ -70,26 +94,34 @@ ChannelMessage to_channel_message(const topic_tools::ShapeShifter& shape) {
 
 class FaultRelay {
  public:
-  FaultRelay() {
-    const auto topics = private_nh_.param("topics", std::vector<std::string>());
-    const std::string prefix = private_nh_.param<std::string>("prefix", "/relayed");
-    const int seed = private_nh_.param("seed", 1);
-    for (const std::string& topic : topics) {
+  // Empty, or what is wrong with the parameters: then it does nothing.
+  std::string start() {
+    std::string wrong = read_parameters(private_nh_, options_of(options_));
+    if (!wrong.empty()) return wrong;
+    for (const std::string& topic : options_.topics) {
       const auto number = static_cast<std::uint32_t>(links_.size());
-      links_.push_back(std::make_unique<Link>(static_cast<std::uint32_t>(seed) + number));
+      links_.push_back(std::make_unique<Link>(static_cast<std::uint32_t>(options_.seed) + number));
       Link& link = *links_.back();
       link.topic = topic;
-      link.out = prefix + topic;
+      link.out = options_.prefix + topic;
       link.subscriber = nh_.subscribe<topic_tools::ShapeShifter>(
           topic, 100,
           [this, &link](const topic_tools::ShapeShifter::ConstPtr& shape) { pass(link, *shape); },
           ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     }
-    server_.setCallback([this](FaultRelayConfig& config, std::uint32_t) { on_config(config); });
+    set_faults();
+    live_ = std::make_unique<LiveOptions>(
+        private_nh_, options_of(options_),
+        [](const std::string& reason) { ROS_ERROR_STREAM("refused: " << reason); },
+        [this] {
+          set_faults();
+          return std::string();
+        });
     timer_ = nh_.createWallTimer(ros::WallDuration(0.005),
                                  [this](const ros::WallTimerEvent&) { send_due(); });
     report_ = nh_.createWallTimer(ros::WallDuration(1.0),
                                   [this](const ros::WallTimerEvent&) { report(); });
+    return {};
   }
 
  private:
@@ -102,18 +134,10 @@ class FaultRelay {
     topic_tools::ShapeShifter shape;  // of the messages that pass
   };
 
-  void on_config(const FaultRelayConfig& config) {
-    Faults faults;
-    faults.lose = config.lose;
-    faults.duplicate = config.duplicate;
-    faults.reorder = config.reorder;
-    faults.corrupt = config.corrupt;
-    faults.delay = from_seconds(config.delay);
-    faults.late = from_seconds(config.late);
-    faults.down = config.down;
+  void set_faults() {
     for (const auto& link : links_) {
-      const bool meant = link->topic.find(config.only) != std::string::npos;
-      link->channel.set(meant ? faults : Faults());
+      const bool meant = link->topic.find(options_.only) != std::string::npos;
+      link->channel.set(meant ? options_.faults : Faults());
     }
   }
 
@@ -155,7 +179,8 @@ class FaultRelay {
   ros::NodeHandle private_nh_{"~"};
   ros::Publisher counts_ = private_nh_.advertise<std_msgs::String>("counts", 1, true);
   std::vector<std::unique_ptr<Link>> links_;
-  dynamic_reconfigure::Server<FaultRelayConfig> server_;
+  RelayOptions options_;
+  std::unique_ptr<LiveOptions> live_;
   ros::WallTimer timer_, report_;
 };
 
@@ -165,6 +190,11 @@ class FaultRelay {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "fault_relay");
   rprr::FaultRelay relay;
+  const std::string wrong = relay.start();
+  if (!wrong.empty()) {
+    ROS_FATAL_STREAM("wrong parameters: " << wrong);
+    return 1;
+  }
   ros::spin();
   return 0;
 }

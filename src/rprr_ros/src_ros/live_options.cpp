@@ -96,11 +96,11 @@ void set_parameter(const ros::NodeHandle& nh, const std::string& name, const Opt
 
 }  // namespace
 
-LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
+LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Refused refused,
                          Changed changed)
     : nh_(private_nh),
       table_(live_rows(table)),
-      health_(health),
+      refused_(std::move(refused)),
       changed_(std::move(changed)),
       descriptions_(
           nh_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true)),
@@ -124,7 +124,7 @@ bool LiveOptions::on_request(Request& request, Response& response) {
       set_parameter(nh_, option.name, option.get());
     }
   }
-  if (!wrong.empty()) health_.warn("reconfiguration", "refused: " + wrong);
+  if (!wrong.empty()) refused_(wrong);
   response.config = config();
   updates_.publish(response.config);
   return true;

@@ -41,9 +41,10 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--compress", options.compression, "none, bz2 or lz4")
       ->check(CLI::IsMember({"none", "bz2", "lz4"}))
       ->capture_default_str();
-  app.add_option("--start", options.start, "first entry")->capture_default_str();
-  app.add_option("--count", options.count, "entries at most; 0: all")->capture_default_str();
-  app.add_option("--stride", options.stride, "take every so many-th entry")
+  app.add_option("--start", options.start, "index of the first entry")->capture_default_str();
+  app.add_option("--count", options.count, "number of entries at most; 0: all")
+      ->capture_default_str();
+  app.add_option("--stride", options.stride, "take every Nth entry")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--window", options.window,

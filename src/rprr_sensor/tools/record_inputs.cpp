@@ -97,7 +97,8 @@ int main(int argc, char** argv) {
       "Records RPRR's inputs of some robots (colour, camera_info, depth) into a bag, until a limit "
       "is reached or Ctrl-C is pressed."};
   Options options;
-  app.add_option("--robots", options.robots, "whose cameras")->capture_default_str();
+  app.add_option("--robots", options.robots, "robots whose cameras are recorded")
+      ->capture_default_str();
   app.add_option("--minutes", options.minutes, "end after so long; 0: no limit")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

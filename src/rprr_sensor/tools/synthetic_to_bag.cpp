@@ -53,15 +53,16 @@ int main(int argc, char** argv) {
   app.add_option("bag", options.bag, "bag to write")->required();
   app.add_option("--a", options.robots[0], "first robot")->capture_default_str();
   app.add_option("--b", options.robots[1], "second robot")->capture_default_str();
-  app.add_option("--frames", options.frames, "frames of each robot")
+  app.add_option("--frames", options.frames, "number of frames of each robot")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "another seed, another room")->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of the room: another seed, another room")
+      ->capture_default_str();
   app.add_option("--rate", options.rate, "frames per second")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--width", options.width, "pixels")->capture_default_str();
-  app.add_option("--height", options.height, "pixels")->capture_default_str();
+  app.add_option("--width", options.width, "width of the images, pixels")->capture_default_str();
+  app.add_option("--height", options.height, "height of the images, pixels")->capture_default_str();
   app.add_option("--compress", options.compression, "none, bz2 or lz4")
       ->check(CLI::IsMember({"none", "bz2", "lz4"}))
       ->capture_default_str();

@@ -49,12 +49,13 @@ int main(int argc, char** argv) {
       "Renders a walk through a synthetic room into a folder in the TUM layout, poses exact."};
   Options options;
   app.add_option("folder", options.folder, "folder to make")->required();
-  app.add_option("--frames", options.frames, "length of the walk")
+  app.add_option("--frames", options.frames, "number of frames of the walk")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "another seed, another room")->capture_default_str();
-  app.add_option("--width", options.width, "pixels")->capture_default_str();
-  app.add_option("--height", options.height, "pixels")->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of the room: another seed, another room")
+      ->capture_default_str();
+  app.add_option("--width", options.width, "width of the images, pixels")->capture_default_str();
+  app.add_option("--height", options.height, "height of the images, pixels")->capture_default_str();
   app.add_option("--rate", options.rate, "frames per second")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -6,11 +6,9 @@
 namespace rprr {
 
 Result<sensor_msgs::CompressedImage> DhcmPublisher::encode_with(
-    DepthMessageEncoder& encoder, const DhcmPublisherConfig& config,
+    DepthMessageEncoder& encoder, const DhcmSending& settings,
     const sensor_msgs::Image& image) const {
-  const Result<DhcmMode> mode = dhcm_mode_from_name(config.mode);
-  if (!mode) return Error{mode.reason()};
-  return encoder.encode(image, *mode, config.step);
+  return encoder.encode(image, settings.mode, settings.step);
 }
 
 std::string DhcmPublisher::advice() const {
@@ -18,9 +16,9 @@ std::string DhcmPublisher::advice() const {
 }
 
 Result<sensor_msgs::CompressedImage> PgfPublisher::encode_with(
-    ColourMessageEncoder& encoder, const PgfPublisherConfig& config,
+    ColourMessageEncoder& encoder, const PgfSending& settings,
     const sensor_msgs::Image& image) const {
-  return encoder.encode(image, config.quality);
+  return encoder.encode(image, settings.quality);
 }
 
 std::string PgfPublisher::advice() const {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <image_transport/simple_publisher_plugin.h>
-#include <rprr_codec/DhcmPublisherConfig.h>
-#include <rprr_codec/PgfPublisherConfig.h>
 #include <sensor_msgs/CompressedImage.h>
 
 #include <mutex>
@@ -11,16 +9,14 @@
 
 #include "transport/colour_message.hpp"
 #include "transport/depth_message.hpp"
-#include "transport/live_config.hpp"
+#include "transport/live_settings.hpp"
+#include "transport/transport_settings.hpp"
 
 namespace rprr {
 
-using rprr_codec::DhcmPublisherConfig;
-using rprr_codec::PgfPublisherConfig;
-
 /// What the two transports share: settings under <topic>/<transport>, one encoder for all threads,
 /// and a word now and then about images that cannot be sent.
-template <typename Encoder, typename Config>
+template <typename Encoder, typename Settings>
 class TransportPublisher
     : public image_transport::SimplePublisherPlugin<sensor_msgs::CompressedImage> {
  protected:
@@ -32,7 +28,7 @@ class TransportPublisher
                      const ros::VoidPtr& tracked_object, bool latch) override {
     Base::advertiseImpl(nh, base_topic, queue_size, user_connect_cb, user_disconnect_cb,
                         tracked_object, latch);
-    config_.start(this->nh());
+    settings_.start(this->nh());
   }
 
   void publish(const sensor_msgs::Image& image, const PublishFn& publish_fn) const override {
@@ -46,38 +42,38 @@ class TransportPublisher
   }
 
   virtual Result<sensor_msgs::CompressedImage> encode_with(
-      Encoder& encoder, const Config& config, const sensor_msgs::Image& image) const = 0;
+      Encoder& encoder, const Settings& settings, const sensor_msgs::Image& image) const = 0;
   virtual std::string advice() const = 0;
 
  private:
   Result<sensor_msgs::CompressedImage> encode(const sensor_msgs::Image& image) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return encode_with(encoder_, config_.get(), image);
+    return encode_with(encoder_, settings_.get(), image);
   }
 
-  LiveConfig<Config> config_;
+  LiveSettings<Settings> settings_;
   mutable std::mutex mutex_;
   mutable Encoder encoder_;  // image_transport publishes through const methods
 };
 
-class DhcmPublisher : public TransportPublisher<DepthMessageEncoder, DhcmPublisherConfig> {
+class DhcmPublisher : public TransportPublisher<DepthMessageEncoder, DhcmSending> {
  public:
   std::string getTransportName() const override { return "dhcm"; }
 
  protected:
   Result<sensor_msgs::CompressedImage> encode_with(DepthMessageEncoder& encoder,
-                                                   const DhcmPublisherConfig& config,
+                                                   const DhcmSending& settings,
                                                    const sensor_msgs::Image& image) const override;
   std::string advice() const override;
 };
 
-class PgfPublisher : public TransportPublisher<ColourMessageEncoder, PgfPublisherConfig> {
+class PgfPublisher : public TransportPublisher<ColourMessageEncoder, PgfSending> {
  public:
   std::string getTransportName() const override { return "pgf"; }
 
  protected:
   Result<sensor_msgs::CompressedImage> encode_with(ColourMessageEncoder& encoder,
-                                                   const PgfPublisherConfig& config,
+                                                   const PgfSending& settings,
                                                    const sensor_msgs::Image& image) const override;
   std::string advice() const override;
 };

@@ -13,19 +13,19 @@ std::size_t pixels(double megapixels) {
 }  // namespace
 
 Result<sensor_msgs::Image> DhcmSubscriber::decode_with(
-    const DhcmSubscriberConfig& config, const sensor_msgs::CompressedImage& message) {
-  if (!decoder_ || pixels(config.max_megapixels) != max_pixels_) {
-    max_pixels_ = pixels(config.max_megapixels);
+    const DhcmReceiving& settings, const sensor_msgs::CompressedImage& message) {
+  if (!decoder_ || pixels(settings.max_megapixels) != max_pixels_) {
+    max_pixels_ = pixels(settings.max_megapixels);
     decoder_ = std::make_unique<DepthMessageDecoder>(max_pixels_);
   }
   return decoder_->decode(message);
 }
 
-Result<sensor_msgs::Image> PgfSubscriber::decode_with(const PgfSubscriberConfig& config,
+Result<sensor_msgs::Image> PgfSubscriber::decode_with(const PgfReceiving& settings,
                                                       const sensor_msgs::CompressedImage& message) {
   WorkerLimits limits;
-  limits.seconds = config.time_limit;
-  decoder_.set_limits(limits, pixels(config.max_megapixels));
+  limits.seconds = settings.time_limit;
+  decoder_.set_limits(limits, pixels(settings.max_megapixels));
   return decoder_.decode(message);
 }
 

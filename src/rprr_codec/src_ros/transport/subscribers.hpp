@@ -2,8 +2,6 @@
 #pragma once
 
 #include <image_transport/simple_subscriber_plugin.h>
-#include <rprr_codec/DhcmSubscriberConfig.h>
-#include <rprr_codec/PgfSubscriberConfig.h>
 #include <sensor_msgs/CompressedImage.h>
 
 #include <boost/make_shared.hpp>
@@ -14,16 +12,14 @@
 
 #include "transport/colour_message.hpp"
 #include "transport/depth_message.hpp"
-#include "transport/live_config.hpp"
+#include "transport/live_settings.hpp"
+#include "transport/transport_settings.hpp"
 
 namespace rprr {
 
-using rprr_codec::DhcmSubscriberConfig;
-using rprr_codec::PgfSubscriberConfig;
-
 /// What the two transports share: settings under ~<transport>/<topic>, and no message that does
 /// more harm than a word now and then.
-template <typename Config>
+template <typename Settings>
 class TransportSubscriber
     : public image_transport::SimpleSubscriberPlugin<sensor_msgs::CompressedImage> {
  protected:
@@ -33,8 +29,8 @@ class TransportSubscriber
                      const Callback& callback, const ros::VoidPtr& tracked_object,
                      const image_transport::TransportHints& hints) override {
     const std::string topic = nh.resolveName(base_topic);
-    config_.start(ros::NodeHandle(ros::NodeHandle(hints.getParameterNH(), getTransportName()),
-                                  topic.substr(topic.find_first_not_of('/'))));
+    settings_.start(ros::NodeHandle(ros::NodeHandle(hints.getParameterNH(), getTransportName()),
+                                    topic.substr(topic.find_first_not_of('/'))));
     Base::subscribeImpl(nh, base_topic, queue_size, callback, tracked_object, hints);
   }
 
@@ -44,7 +40,7 @@ class TransportSubscriber
     if (image) user_cb(image);  // not guarded: what it throws is its own affair
   }
 
-  virtual Result<sensor_msgs::Image> decode_with(const Config& config,
+  virtual Result<sensor_msgs::Image> decode_with(const Settings& settings,
                                                  const sensor_msgs::CompressedImage& message) = 0;
 
  private:
@@ -52,7 +48,7 @@ class TransportSubscriber
     std::string reason;
     try {
       const std::lock_guard<std::mutex> lock(mutex_);
-      Result<sensor_msgs::Image> image = decode_with(config_.get(), message);
+      Result<sensor_msgs::Image> image = decode_with(settings_.get(), message);
       if (image) return boost::make_shared<sensor_msgs::Image>(std::move(*image));
       reason = image.reason();
     } catch (const std::exception& error) {  // out of memory
@@ -62,16 +58,16 @@ class TransportSubscriber
     return nullptr;
   }
 
-  LiveConfig<Config> config_;
+  LiveSettings<Settings> settings_;
   std::mutex mutex_;
 };
 
-class DhcmSubscriber : public TransportSubscriber<DhcmSubscriberConfig> {
+class DhcmSubscriber : public TransportSubscriber<DhcmReceiving> {
  public:
   std::string getTransportName() const override { return "dhcm"; }
 
  protected:
-  Result<sensor_msgs::Image> decode_with(const DhcmSubscriberConfig& config,
+  Result<sensor_msgs::Image> decode_with(const DhcmReceiving& settings,
                                          const sensor_msgs::CompressedImage& message) override;
 
  private:
@@ -79,12 +75,12 @@ class DhcmSubscriber : public TransportSubscriber<DhcmSubscriberConfig> {
   std::unique_ptr<DepthMessageDecoder> decoder_;
 };
 
-class PgfSubscriber : public TransportSubscriber<PgfSubscriberConfig> {
+class PgfSubscriber : public TransportSubscriber<PgfReceiving> {
  public:
   std::string getTransportName() const override { return "pgf"; }
 
  protected:
-  Result<sensor_msgs::Image> decode_with(const PgfSubscriberConfig& config,
+  Result<sensor_msgs::Image> decode_with(const PgfReceiving& settings,
                                          const sensor_msgs::CompressedImage& message) override;
 
  private:

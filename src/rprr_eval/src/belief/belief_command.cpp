@@ -69,7 +69,7 @@ int run(const BeliefArguments& arguments) {
   const std::vector<BeliefSample> samples = belief_samples(arguments.options, *profile);
   BeliefOptions held_out = arguments.options;
   held_out.first_seed = arguments.held_out_seed;
-  std::cerr << "and as many others\n";
+  std::cerr << "rendering and searching " << held_out.scenes << " other scenes to try the fit on\n";
   const std::vector<BeliefSample> others = belief_samples(held_out, *profile);
   const BeliefModel model = fit_belief(samples);
   show(model, samples);
@@ -90,17 +90,24 @@ void add_belief_command(CLI::App& app, int& exit_code) {
       "belief",
       "Fits the log odds that a pose from a preview is right, and tries them on other scenes");
   BeliefOptions& options = arguments->options;
-  command->add_option("--scenes", options.scenes, "synthetic scenes to fit on, and as many to try")
+  command
+      ->add_option(
+          "--scenes", options.scenes,
+          "number of synthetic scenes to fit on; as many others are rendered to try the fit")
       ->check(CLI::Range(3, 10000))
       ->capture_default_str();
-  command->add_option("--pairs", options.pairs_per_scene, "of each scene")
+  command->add_option("--pairs", options.pairs_per_scene, "pairs of frames rendered in each scene")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--first-seed", options.first_seed, "of the scenes to fit on")
+  command
+      ->add_option("--first-seed", options.first_seed,
+                   "seed of the first scene to fit on; the others count up from there")
       ->capture_default_str();
-  command->add_option("--held-out-seed", arguments->held_out_seed, "of the scenes to try")
+  command
+      ->add_option("--held-out-seed", arguments->held_out_seed,
+                   "seed of the first scene to try the fit on")
       ->capture_default_str();
-  command->add_option("--profile", arguments->profile, "default, or a profile's path")
+  command->add_option("--profile", arguments->profile, "default, or the path of a profile")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the JSON lines here");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -152,11 +152,13 @@ void add_codec_command(CLI::App& app, int& exit_code) {
       ->add_option("--codecs", arguments->codecs,
                    "depth codecs, separated by commas; all if not given:" + known_codecs())
       ->delimiter(',');
-  command->add_option("--quality", arguments->quality, "of PGF, 0 (lossless) to 30")
+  command
+      ->add_option("--quality", arguments->quality,
+                   "quality of PGF, from 0 (lossless) to 30 (coarsest)")
       ->check(CLI::Range(0, 30))
       ->capture_default_str();
   command->add_flag("!--no-colour", arguments->colour, "leave out PGF");
-  command->add_option("--repeats", arguments->repeats, "best of so many runs for each frame")
+  command->add_option("--repeats", arguments->repeats, "runs of each frame; the fastest counts")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command

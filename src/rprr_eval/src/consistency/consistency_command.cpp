@@ -143,24 +143,31 @@ int run(const ConsistencyArguments& arguments) {
 
 void add_options(CLI::App* command, ConsistencyArguments& arguments) {
   ConsistencyOptions& options = arguments.options;
-  command->add_option("--scene", arguments.scene, "room, turntable or corridor")
+  command->add_option("--scene", arguments.scene, "what is rendered: room, turntable or corridor")
       ->check(CLI::IsMember(kScenes))
       ->capture_default_str();
-  command->add_option("--seeds", options.seeds, "scenes")
+  command->add_option("--seeds", options.seeds, "number of scenes")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--first-seed", options.first_seed, "of the first scene")
+  command
+      ->add_option("--first-seed", options.first_seed,
+                   "seed of the first scene; the others count up from there")
       ->capture_default_str();
-  command->add_option("--pairs", options.pairs_per_scene, "in each scene")
+  command->add_option("--pairs", options.pairs_per_scene, "pairs of frames in each scene")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--max-degrees", options.max_degrees, "of the motions")
+  command
+      ->add_option("--max-degrees", options.max_degrees,
+                   "largest turn between the frames of a pair, degrees")
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
-  command->add_option("--max-metres", options.max_metres, "of the motions")
+  command
+      ->add_option("--max-metres", options.max_metres,
+                   "largest distance between the frames of a pair, metres")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
-  command->add_option("--width", options.width, "pixels; the height is 3/4 of the width")
+  command
+      ->add_option("--width", options.width, "width of the images, pixels; the height is 3/4 of it")
       ->check(CLI::Range(128, 1920))
       ->capture_default_str();
   command->add_option("--profile", arguments.profile, "default, paper, or a file")

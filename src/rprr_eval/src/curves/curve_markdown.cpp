@@ -77,7 +77,7 @@ std::string on_curve_table(const std::vector<json>& folders) {
   add("worst of all, dB / SSIM", [](const json& found) {
     return number(found["worst_psnr"], 2) + " / " + number(found["worst_ssim"], 4);
   });
-  add("pairs that begin above independent's least",
+  add("pairs whose smallest view has more bytes than the smallest independent frame",
       [](const json& found) { return number(found["begin_late"], 0); });
   return table.text() + points_table(folders);
 }

@@ -33,7 +33,8 @@ std::string on_curve_text(const json& found) {
          percent(found["share_ssim"]) + ", both " + percent(found["share_both"]) + " of " +
          count(found["pairs"]) + " pairs\n  worst shortfall " + cell(found["worst_psnr"], 2) +
          " dB, SSIM " + cell(found["worst_ssim"], 4) + "; " + count(found["begin_late"]) +
-         " pairs begin above independent's least\n" + points_text(found["points"]);
+         " pairs whose smallest view has more bytes than the smallest independent frame\n" +
+         points_text(found["points"]);
 }
 
 std::string ratio_text(const std::string& title, const json& methods, const json& pairs) {

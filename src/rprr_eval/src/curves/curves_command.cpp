@@ -228,13 +228,14 @@ void add_curves_command(CLI::App& app, int& exit_code) {
       ->add_option("--step", arguments->steps, "pairs entry k with entry k+N; several may be given")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--profile", arguments->profile, "ours: default or a YAML file")
+  command->add_option("--profile", arguments->profile, "profile of RPRR: default or a YAML file")
       ->capture_default_str();
   command
       ->add_option("--every", arguments->every, "only pairs whose a is the K-th, 2K-th, ... entry")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--points", arguments->points, "byte budgets for each objective")
+  command
+      ->add_option("--points", arguments->points, "number of byte budgets tried for each objective")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the JSON lines here");

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "commands.hpp"
+#include "rprr_eval/measure/metrics.hpp"
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/relative_pose.hpp"
 #include "rprr_redundancy/decision.hpp"
@@ -43,7 +44,7 @@ bool surface_is_wrong(const cv::Mat& predicted, const DepthFrame& b, const cv::R
       if (z <= 0.0) continue;
       ++readings;
       const double off = std::abs(static_cast<double>(predicted.at<float>(v, u)) - z);
-      wrong += off > 0.02 + 0.015 * z + 2.0 * depth_sigma(z) ? 1 : 0;
+      wrong += off > same_surface_within(z) + 2.0 * depth_sigma(z) ? 1 : 0;
     }
   }
   return 4 * readings >= rect.area() && 2 * wrong > readings;
@@ -154,15 +155,21 @@ void add_decision_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--off", arguments->off_metres, "error given to the pose, metres")
       ->capture_default_str();
-  command->add_option("--preview-quality", arguments->preview_quality, "of its colours, 0 to 100")
+  command
+      ->add_option("--preview-quality", arguments->preview_quality,
+                   "quality of the preview's colours, 0 to 100")
       ->capture_default_str();
   command->add_option("--coverage", options.least_coverage, "least share covered")
       ->capture_default_str();
   command->add_option("--agreement", options.least_agreement, "least share at the preview's depth")
       ->capture_default_str();
-  command->add_option("--colour-tolerance", options.colour_tolerance, "grey levels")
+  command
+      ->add_option("--colour-tolerance", options.colour_tolerance,
+                   "allowed difference of colours, grey levels")
       ->capture_default_str();
-  command->add_option("--colour-sigmas", options.colour_sigmas, "of the robust spread")
+  command
+      ->add_option("--colour-sigmas", options.colour_sigmas,
+                   "allowed difference of colours, in sigmas of their robust spread")
       ->capture_default_str();
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -59,7 +59,7 @@ int run(const LatencyArguments& arguments) {
   JsonOutput json(arguments.json);
   if (!json.good()) return 1;
   TextTable table(
-      {"protocol", "round trip", "accepted", "decided after", "if accepted", "and computing"});
+      {"protocol", "round trip", "accepted", "decided after", "if accepted", "processor time"});
   for (const Protocol& protocol : *all) {
     for (const double round_trip : arguments.round_trips) {
       ExchangeSurveyor surveyor(make_exchange(protocol.profile, from_seconds(round_trip / 2e3)));
@@ -79,8 +79,9 @@ int run(const LatencyArguments& arguments) {
                  fixed(survey.median_compute_ms, 1) + " ms"});
     }
   }
-  std::cerr << "medians from the frames to b's decision on the simulated channel; computing (both "
-               "robots, this machine) comes on top\n"
+  std::cerr << "medians of the time from the frames to b's decision on the simulated channel; the "
+               "processor "
+               "time of both robots on this machine comes on top\n"
             << table.text();
   return 0;
 }
@@ -96,10 +97,12 @@ void add_latency_command(CLI::App& app, int& exit_code) {
   command->add_option("--step", arguments->step, "pairs entry k with entry k+N")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--pairs", arguments->pairs, "at most so many")
+  command->add_option("--pairs", arguments->pairs, "number of pairs at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--round-trips", arguments->round_trips, "milliseconds")
+  command
+      ->add_option("--round-trips", arguments->round_trips,
+                   "round trips of the simulated channel to try, milliseconds")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -125,7 +125,7 @@ double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
       const double measured =
           b.metres(std::min(static_cast<int>(std::floor(pixel.x() + 0.5)), b_camera.width - 1),
                    std::min(static_cast<int>(std::floor(pixel.y() + 0.5)), b_camera.height - 1));
-      if (measured > 0.0 && std::abs(p.z() - measured) < 0.02 + 0.015 * measured) ++seen;
+      if (measured > 0.0 && std::abs(p.z() - measured) < same_surface_within(measured)) ++seen;
     }
   }
   return valid == 0 ? 0.0 : static_cast<double>(seen) / valid;

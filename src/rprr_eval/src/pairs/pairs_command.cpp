@@ -96,8 +96,8 @@ void add_pairs_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--profile", arguments->profile, "default, paper or a YAML file")
       ->capture_default_str();
-  command->add_option("--a", arguments->a, "this entry as the reference's frame");
-  command->add_option("--b", arguments->b, "this entry as the dependent's frame");
+  command->add_option("--a", arguments->a, "index of the entry that is the reference's frame");
+  command->add_option("--b", arguments->b, "index of the entry that is the dependent's frame");
   command->add_option("--quality", arguments->quality,
                       "colour quality in the codec's own scale, instead of the profile's");
   command->add_option("--json", arguments->json, "write the JSON lines here");

@@ -134,8 +134,8 @@ std::string by_overlap(const std::vector<MethodRecords>& methods, JsonOutput& js
 
 std::string against_the_first(const std::vector<MethodRecords>& methods, JsonOutput& json) {
   const std::string& first = methods.front().method;
-  TextTable table({first + " against", "both solve", "only it", "only other", "neither", "its mm",
-                   "deg", "other's mm", "deg", "times slower"});
+  TextTable table({first + " against", "both solve", "only " + first, "only other", "neither",
+                   first + ", mm", "deg", "other, mm", "deg", "times slower"});
   for (std::size_t i = 1; i < methods.size(); ++i) {
     const HeadToHead duel = head_to_head(methods.front().records, methods[i].records);
     const auto error = [&](double value, int digits) {
@@ -215,15 +215,16 @@ void add_poses_command(CLI::App& app, int& exit_code) {
   command->add_option("--per-bin", arguments->per_bin, "pairs for each range of overlaps")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of the choice of pairs")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "seed of the random choice of pairs")
+      ->capture_default_str();
   command
       ->add_option("--entries", arguments->most_entries,
-                   "of a long folder, so many entries, spread evenly")
+                   "number of entries used of a long folder, spread evenly")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command
       ->add_option("--methods", arguments->methods,
-                   "by name (default: all that are built in); rprr_eval methods lists them")
+                   "methods by name (default: all that are built in); rprr_eval methods lists them")
       ->delimiter(',');
   command->add_option("--json", arguments->json, "write the JSON lines here");
   command->add_option("--pairs-json", arguments->pairs_json,

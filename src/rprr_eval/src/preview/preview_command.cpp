@@ -125,14 +125,16 @@ void add_preview_command(CLI::App& app, int& exit_code) {
       "Block previews of all frames of folders: medians of bytes, PSNR of the colours against the "
       "blocks' means, milliseconds of processor time; one JSON object a line");
   command->add_option("folder", arguments->folders, "TUM-layout folders")->required();
-  command->add_option("--step", arguments->step, "of inverse depth, 1/metre")
+  command->add_option("--step", arguments->step, "step to which inverse depth is rounded, 1/metre")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--quality", arguments->quality, "of the colours, WebP's 0 to 100")
+  command
+      ->add_option("--quality", arguments->quality,
+                   "quality of the colours, 0 to 100 as WebP counts it")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   command->add_flag("--lossless", arguments->lossless, "depth as unchanged readings, not in steps");
-  command->add_option("--repeats", arguments->repeats, "median of so many runs for each frame")
+  command->add_option("--repeats", arguments->repeats, "runs of each frame; their median counts")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the JSON lines here");

@@ -108,17 +108,19 @@ void add_options(CLI::App* command, TimingArguments& arguments) {
   command->add_option("--step", arguments.step, "pairs entry k with entry k+N")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--pairs", arguments.pairs, "at most so many of each folder")
+  command->add_option("--pairs", arguments.pairs, "number of pairs at most of each folder")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--profile", arguments.profile, "whose preview settings")
+  command->add_option("--profile", arguments.profile, "profile whose preview settings are used")
       ->capture_default_str();
   command->add_option("--peers", arguments.peers, "methods to compare with, by name")
       ->delimiter(',')
       ->capture_default_str();
   command->add_flag_callback(
       "--no-peers", [&arguments] { arguments.peers.clear(); }, "time the preview alone");
-  command->add_option("--warm-metres", arguments.warm.metres, "the warm start is off by")
+  command
+      ->add_option("--warm-metres", arguments.warm.metres,
+                   "metres by which warm starts are moved from the pose")
       ->capture_default_str();
   command
       ->add_option("--warm-degrees", arguments.warm.degrees,

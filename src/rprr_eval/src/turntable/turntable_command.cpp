@@ -91,17 +91,21 @@ void add_turntable_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "turntable", "The paper's turntable, synthetic: error and iterations against the angle");
   TurntableOptions& options = arguments->options;
-  command->add_option("--seeds", options.seeds, "tables, each with other objects")
+  command->add_option("--seeds", options.seeds, "number of tables, each with other objects")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--seed", options.first_seed, "of the first table")->capture_default_str();
-  command->add_option("--step", options.step_degrees, "degrees")
+  command
+      ->add_option("--seed", options.first_seed,
+                   "seed of the first table; the others count up from there")
+      ->capture_default_str();
+  command->add_option("--step", options.step_degrees, "step between angles, degrees")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--last", options.last_degrees, "largest angle, degrees")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--methods", arguments->methods, "by name; rprr_eval methods lists them")
+  command
+      ->add_option("--methods", arguments->methods, "methods by name; rprr_eval methods lists them")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the JSON lines here");

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "rprr_geometry/option_table.hpp"
-#include "rprr_ros/health.hpp"
 
 namespace rprr {
 
@@ -19,17 +18,21 @@ namespace rprr {
 /// dynparam and dynamic_reconfigure's clients work with it as with a server made from a .cfg file.
 ///
 /// A request is taken as a whole or not at all: what the table or the node refuses leaves every
-/// option as it was and is told on /diagnostics. What is taken also goes to the parameter server,
-/// so that a node which is started again keeps it.
+/// option as it was and is reported. What is taken also goes to the parameter server, so that a
+/// node which is started again keeps it.
 class LiveOptions {
  public:
   /// Called after options have changed. Empty, or why the node refuses them: then they are put back
   /// and it is not called again.
   using Changed = std::function<std::string()>;
 
-  /// The structs that the table is bound to, and health, must outlive this. Requests are served on
-  /// the node handle's callback queue; the structs are written there alone.
-  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
+  /// Called with the reason of a request that was refused.
+  using Refused = std::function<void(const std::string& reason)>;
+
+  /// The structs that the table is bound to must outlive this. Requests are served on the node
+  /// handle's callback queue; the structs are written there alone, and both functions are called
+  /// there.
+  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Refused refused,
               Changed changed);
 
  private:
@@ -43,7 +46,7 @@ class LiveOptions {
 
   ros::NodeHandle nh_;
   OptionTable table_;  // the live rows
-  Health& health_;
+  Refused refused_;
   Changed changed_;
   std::mutex mutex_;
   ros::Publisher descriptions_;

@@ -21,7 +21,7 @@ struct LoggedExchange {
   double bytes_pose = 0, bytes_masks = 0, bytes_depth = 0, bytes_colour = 0, bytes_extras = 0;
   double bytes_total = 0, independent_bytes = 0;  // independent: 0 if not measured
   double ms_pose_reference = 0, ms_pose_dependent = 0, ms_validate = 0, ms_encode = 0;
-  double ms_decode = 0, ms_reconstruct = 0, latency_ms = 0;
+  double ms_decode = 0, ms_reconstruct = 0;
 };
 
 /// Collects exchanges by their number and sums them up, for people and for scripts. Only the first

@@ -37,8 +37,14 @@ struct PredictedDepthQuality {
 PredictedDepthQuality predicted_depth_quality(const DepthFrame& rebuilt, const DepthFrame& truth,
                                               const BlockMask& received);
 
+/// Two depths [m] that differ by less are taken for one surface: 2 cm for the truth's error, and
+/// 1.5% for what the sensor's noise grows to.
+constexpr double same_surface_within(double metres) {
+  return 0.02 + 0.015 * metres;
+}
+
 /// Share of a's valid block-centre pixels whose surface b sees under the true pose: they project
-/// into b on a valid depth within 2 cm + 1.5% of it.
+/// into b on a valid depth within same_surface_within() of it.
 double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
                const Camera& b_camera, const Pose& b_from_a);
 
