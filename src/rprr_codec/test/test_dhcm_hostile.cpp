@@ -11,7 +11,7 @@
 namespace rprr {
 namespace {
 
-constexpr DhcmMode kModes[] = {DhcmMode::kFast, DhcmMode::kDefault, DhcmMode::kSmall};
+constexpr DhcmMode kAttackedModes[] = {DhcmMode::kFast, DhcmMode::kDefault, DhcmMode::kSmall};
 
 std::size_t head_of(const Bytes& payload) {
   return 6 + 4 + ((payload[1] & 8) != 0 ? 8 : 4);
@@ -19,7 +19,7 @@ std::size_t head_of(const Bytes& payload) {
 
 TEST(DhcmHostile, ACutPayloadIsAnErrorAtEveryByte) {
   DhcmDecoder decoder;
-  for (const DhcmMode mode : kModes) {
+  for (const DhcmMode mode : kAttackedModes) {
     DhcmEncoder encoder(mode);
     for (const DepthFrame& frame : {synthetic::kinect_like(45, 30), synthetic::noise(12, 12)}) {
       const Bytes payload = encoder.encode(frame);
@@ -66,7 +66,7 @@ TEST(DhcmHostile, AHundredThousandDamagedPayloadsDoNoHarm) {
   const BlockMask mask = synthetic::some_blocks(grid, 0.5);
   const DepthFrame frame = synthetic::kinect_like(43, 30);
   DhcmDecoder decoder(64 * 64);
-  for (const DhcmMode mode : kModes) {
+  for (const DhcmMode mode : kAttackedModes) {
     DhcmEncoder encoder(mode);
     const Bytes whole = encoder.encode(frame);
     const Bytes masked = encoder.encode(frame, mask);

@@ -13,8 +13,8 @@
 namespace rprr {
 namespace {
 
-constexpr int kWidth = 324;
-constexpr int kHeight = 242;
+constexpr int kPlannedWidth = 324;
+constexpr int kPlannedHeight = 242;
 
 SparseColours bytes(std::size_t budget) {
   return {SparseColours::By::kBytes, static_cast<double>(budget)};
@@ -23,13 +23,13 @@ SparseColours bytes(std::size_t budget) {
 class FramePlan : public ::testing::Test {
  protected:
   FramePlan()
-      : depth_(synthetic::kinect_like(kWidth, kHeight)),
-        bgr_(synthetic::colourful(kWidth, kHeight)),
-        mask_(synthetic::some_blocks(BlockGrid(kWidth, kHeight), 0.3)) {}
+      : depth_(synthetic::kinect_like(kPlannedWidth, kPlannedHeight)),
+        bgr_(synthetic::colourful(kPlannedWidth, kPlannedHeight)),
+        mask_(synthetic::some_blocks(BlockGrid(kPlannedWidth, kPlannedHeight), 0.3)) {}
 
   EncodedFrame sparse_frame() const {
     EncodedFrame frame;
-    frame.camera = {kWidth, kHeight, 300.0, 300.0, 160.0, 120.0};
+    frame.camera = {kPlannedWidth, kPlannedHeight, 300.0, 300.0, 160.0, 120.0};
     frame.sparse = true;
     frame.reference = "eyebug_a";
     frame.mask = mask_;
@@ -179,9 +179,10 @@ TEST_P(FrameLimit, RoundsDepthNoMoreThanAllowedAndSaysSo) {
     ASSERT_TRUE(decoded) << decoded.reason();
     const cv::Mat expected =
         sparse ? synthetic::only(depth_.counts, least->depth_blocks()) : depth_.counts;
-    for (int i = 0; i < kWidth * kHeight; ++i) {
-      const int before = expected.at<std::uint16_t>(i / kWidth, i % kWidth);
-      const int after = decoded->depth.counts.at<std::uint16_t>(i / kWidth, i % kWidth);
+    for (int i = 0; i < kPlannedWidth * kPlannedHeight; ++i) {
+      const int before = expected.at<std::uint16_t>(i / kPlannedWidth, i % kPlannedWidth);
+      const int after =
+          decoded->depth.counts.at<std::uint16_t>(i / kPlannedWidth, i % kPlannedWidth);
       ASSERT_EQ(before == 0, after == 0);
       if (before == 0) continue;
       const double z = before * depth_.unit;

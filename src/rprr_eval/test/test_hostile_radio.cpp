@@ -27,7 +27,7 @@ namespace rprr {
 namespace {
 
 constexpr std::size_t kMoreMemory = std::size_t{16} << 20;
-constexpr Duration kStep = from_seconds(0.02);
+constexpr Duration kTick = from_seconds(0.02);
 
 // Calls once(now) so often; in the second half the process must not grow.
 template <typename Once>
@@ -36,7 +36,7 @@ void bombard(int times, const Once& once) {
   SteadyTime now = steady_seconds(100.0);
   for (int i = 0; i < times; ++i) {
     if (i == times / 2) before = resident_bytes();
-    once(now += kStep);
+    once(now += kTick);
   }
   EXPECT_LE(resident_bytes(), before + kMoreMemory) << "memory grows with messages";
 }

@@ -10,7 +10,7 @@
 namespace rprr {
 namespace {
 
-const Camera kCamera{160, 120, 140, 140, 79.5, 59.5};
+const Camera kPlaneCamera{160, 120, 140, 140, 79.5, 59.5};
 
 cv::Mat noise_image(int seed, double sigma = 60.0) {
   cv::Mat image(120, 160, CV_8UC3);
@@ -20,7 +20,7 @@ cv::Mat noise_image(int seed, double sigma = 60.0) {
 }
 
 DepthFrame plane(int counts, double unit = 0.001) {
-  return {cv::Mat(kCamera.height, kCamera.width, CV_16UC1, cv::Scalar(counts)), unit};
+  return {cv::Mat(kPlaneCamera.height, kPlaneCamera.width, CV_16UC1, cv::Scalar(counts)), unit};
 }
 
 Pose shift(double x, double y = 0.0, double z = 0.0) {
@@ -85,7 +85,7 @@ TEST(PredictedDepthQuality, OnlyWhatWasNotReceivedCounts) {
   DepthFrame rebuilt = plane(2000);
   rebuilt.counts.rowRange(0, 40) = 2020;   // 1%
   rebuilt.counts.rowRange(40, 80) = 2200;  // 10%
-  const BlockGrid grid(kCamera.width, kCamera.height);
+  const BlockGrid grid(kPlaneCamera.width, kPlaneCamera.height);
   BlockMask received(grid);
   for (int block = 0; block < grid.count(); ++block) {
     if (grid.rect(block).y >= 80) received.set(block);
@@ -126,9 +126,9 @@ TEST(DepthQualityTest, NothingIsZeroNotNan) {
 
 TEST(Overlap, OfSyntheticPlanes) {
   const DepthFrame wall = plane(2000);
-  const double width = 2.0 * kCamera.width / kCamera.fx;  // metres of the wall in view
+  const double width = 2.0 * kPlaneCamera.width / kPlaneCamera.fx;  // metres of the wall in view
   const auto of = [&](const DepthFrame& a, const DepthFrame& b, const Pose& b_from_a) {
-    return overlap(a, kCamera, b, kCamera, b_from_a);
+    return overlap(a, kPlaneCamera, b, kPlaneCamera, b_from_a);
   };
   EXPECT_EQ(of(wall, wall, Pose::Identity()), 1.0);
   EXPECT_NEAR(of(wall, wall, shift(0.5 * width)), 0.5, 0.03);
@@ -144,8 +144,8 @@ TEST(Overlap, OfSyntheticPlanes) {
 
 TEST(Overlap, MapsWithMabNotItsInverse) {
   // b stands half a metre nearer to the wall: M_ab takes half a metre off the depths.
-  EXPECT_GT(overlap(plane(2000), kCamera, plane(1500), kCamera, shift(0, 0, -0.5)), 0.5);
-  EXPECT_EQ(overlap(plane(2000), kCamera, plane(1500), kCamera, shift(0, 0, 0.5)), 0.0);
+  EXPECT_GT(overlap(plane(2000), kPlaneCamera, plane(1500), kPlaneCamera, shift(0, 0, -0.5)), 0.5);
+  EXPECT_EQ(overlap(plane(2000), kPlaneCamera, plane(1500), kPlaneCamera, shift(0, 0, 0.5)), 0.0);
 }
 
 TEST(PoseErrorTest, IsZeroForTheTruthAndNotForItsInverse) {

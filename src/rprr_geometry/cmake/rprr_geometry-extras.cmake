@@ -2,7 +2,7 @@
 #
 #   rprr_core      a library that knows no ROS
 #   rprr_nodelets  a library of nodelets, and an executable for each that runs it as a node
-#   rprr_gtest     a unit test
+#   rprr_gtest     a program of unit tests
 #
 # All take SOURCES, CORES (core libraries of other RPRR packages that are linked) and LIBRARIES.
 option(RPRR_WERROR "Treat compiler warnings as errors" OFF)
@@ -35,6 +35,12 @@ function(rprr_target TARGET)
       -fsanitize=${RPRR_SANITIZE} -fno-omit-frame-pointer -O1 -g1)
     target_link_libraries(${TARGET} -fsanitize=${RPRR_SANITIZE})
   endif()
+endfunction()
+
+# Compiles up to eight files of a target as one, for tests and tools: reading headers is most of
+# their work. What is in their anonymous namespaces needs names of its own.
+function(rprr_unity TARGET)
+  set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # Links core libraries of other RPRR packages, with their headers, and nothing of ROS that those
@@ -134,11 +140,17 @@ int main(int argc, char** argv) { return rprr::run_standalone(argc, argv, \"${TY
   install(TARGETS ${NAME} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
-# rprr_gtest(NAME [CORES ...] [LIBRARIES ...]): a gtest binary from test/<NAME>.cpp, which sees
-# private headers of the package as well. Tests may use ROS and link what they name.
+# rprr_gtest(NAME [TESTS ...] [CORES ...] [LIBRARIES ...]): a gtest binary from test/<TEST>.cpp of
+# each of TESTS, or from test/<NAME>.cpp, which sees private headers of the package as well. Tests
+# may use ROS and link what they name.
 function(rprr_gtest NAME)
-  cmake_parse_arguments(TEST "" "" "CORES;LIBRARIES" ${ARGN})
-  catkin_add_gtest(${NAME} test/${NAME}.cpp)
+  cmake_parse_arguments(TEST "" "" "TESTS;CORES;LIBRARIES" ${ARGN})
+  if(NOT TEST_TESTS)
+    set(TEST_TESTS ${NAME})
+  endif()
+  list(TRANSFORM TEST_TESTS REPLACE "(.+)" "test/\\1.cpp")
+  catkin_add_gtest(${NAME} ${TEST_TESTS})
+  rprr_unity(${NAME})
   rprr_test_target(${NAME} CORES ${TEST_CORES} LIBRARIES ${TEST_LIBRARIES} ${GTEST_MAIN_LIBRARIES}
     gtest_main)
 endfunction()

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "near_in_time.hpp"
 #include "rprr_pose/preview_protocol.hpp"
 #include "textured_views.hpp"
 
@@ -13,13 +14,6 @@ namespace {
 
 const Pose kTruth = test_motion(0.12, 6.0);
 const Pose kElsewhere = test_motion(1.5, 100.0);
-
-// Options of a reference that refers to frames near in time alone.
-PreviewOptions near_in_time() {
-  PreviewOptions options;
-  options.reference_age = 0;
-  return options;
-}
 
 class MotionPriorTest : public ::testing::Test {
  protected:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "near_in_time.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "rprr_wire/camera_wire.hpp"
 #include "textured_views.hpp"
@@ -13,12 +14,6 @@
 namespace rprr {
 namespace {
 
-// Options of a reference that refers to frames near in time alone, whatever its radio does.
-PreviewOptions near_in_time() {
-  PreviewOptions options;
-  options.reference_age = 0;
-  return options;
-}
 std::unique_ptr<ExchangeRole> reference_of(const PreviewOptions& options = near_in_time()) {
   return make_preview_reference("a", "b", options);
 }
@@ -26,12 +21,12 @@ std::unique_ptr<ExchangeRole> dependent_of(const PreviewOptions& options = {}) {
   return make_preview_dependent("b", "a", options);
 }
 
-const Pose kTruth = test_motion(0.12, 6.0);
+const Pose kPreviewTruth = test_motion(0.12, 6.0);
 RgbdFramePtr frame_a(Stamp stamp = 1000) {
   return textured_frame(Pose::Identity(), stamp, "a");
 }
 RgbdFramePtr frame_b(Stamp stamp = 1000) {
-  return textured_frame(kTruth, stamp, "b");
+  return textured_frame(kPreviewTruth, stamp, "b");
 }
 
 class PreviewProtocol : public ::testing::Test {
@@ -58,7 +53,7 @@ TEST_F(PreviewProtocol, OneMessageEachWayGivesThePose) {
   ASSERT_EQ(at_b.send.size(), 1u);
   ASSERT_EQ(at_a.send.size(), 1u);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
-  EXPECT_LT(translation_error(pose().b_from_a, kTruth), 0.03);
+  EXPECT_LT(translation_error(pose().b_from_a, kPreviewTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u) << "predict, then send whole as reference";
   EXPECT_EQ(at_a.decisions[0].action, FrameDecision::Action::kPredict);
   ASSERT_TRUE(at_a.decisions[0].peer_preview);
@@ -78,7 +73,7 @@ TEST_F(PreviewProtocol, TheDependentMaySendDepthLossless) {
   dependent = dependent_of(options);
   exchange(1000);
   EXPECT_TRUE(pose().verdict.accepted()) << describe(pose().verdict);
-  EXPECT_LT(translation_error(pose().b_from_a, kTruth), 0.03);
+  EXPECT_LT(translation_error(pose().b_from_a, kPreviewTruth), 0.03);
   ASSERT_EQ(at_a.decisions.size(), 2u);
   ASSERT_TRUE(at_a.decisions[0].peer_preview);
   const BlockPreview* preview = &at_a.decisions[0].peer_preview->preview;

@@ -11,7 +11,7 @@
 namespace rprr {
 namespace {
 
-const Pose kTruth = test_motion(0.12, 7.0);
+const Pose kVerdictTruth = test_motion(0.12, 7.0);
 
 using Change = std::function<void(RgbdFrame&)>;
 
@@ -24,7 +24,7 @@ RgbdFramePtr changed(const Pose& b_from_a, const std::string& robot, const Chang
 PoseVerdict verdict_of(const Change& a_change, const Change& b_change,
                        const PreviewLimits& limits = {}, const std::vector<Pose>& warm = {}) {
   const RgbdFramePtr a = changed(Pose::Identity(), "a", a_change);
-  const RgbdFramePtr b = changed(kTruth, "b", b_change);
+  const RgbdFramePtr b = changed(kVerdictTruth, "b", b_change);
   const Result<BlockPreview> preview =
       decode_preview(encode_preview(make_preview(b->depth, b->bgr, 0.003), 40));
   PreviewPoseOptions options;
@@ -98,7 +98,7 @@ TEST(PreviewVerdicts, AnAcceptedPoseSaysByHowMuch) {
   EXPECT_EQ(searched.quantity, PoseQuantity::kLogOdds);
   EXPECT_GT(searched.measured, searched.needed);
   EXPECT_EQ(searched.needed, 1.0f);
-  const PoseVerdict warm = verdict_of(kNothing, kNothing, {}, {kTruth});
+  const PoseVerdict warm = verdict_of(kNothing, kNothing, {}, {kVerdictTruth});
   EXPECT_TRUE(warm.accepted()) << describe(warm);
   EXPECT_EQ(warm.needed, 2.0f) << "without a search it needs more";
 }

@@ -88,24 +88,24 @@ class Pair {
   }
 };
 
-const Pose kTruth = test_motion(0.12, 6.0);
+const Pose kSamplesTruth = test_motion(0.12, 6.0);
 
-RgbdFramePtr frame_a(Stamp stamp = 1000) {
+RgbdFramePtr corner_a(Stamp stamp = 1000) {
   return corner_frame(Pose::Identity(), stamp, "a");
 }
-RgbdFramePtr frame_b(Stamp stamp = 1000) {
-  return corner_frame(kTruth, stamp, "b");
+RgbdFramePtr corner_b(Stamp stamp = 1000) {
+  return corner_frame(kSamplesTruth, stamp, "b");
 }
 
 TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
   Pair pair;
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.poses.size(), 1u);
   const RelativePoseMessage& pose = pair.poses[0];
   EXPECT_TRUE(pose.verdict.accepted()) << describe(pose.verdict);
-  EXPECT_LT(translation_error(pose.b_from_a, kTruth), 0.01);
-  EXPECT_LT(rotation_error(pose.b_from_a, kTruth), 0.3);
+  EXPECT_LT(translation_error(pose.b_from_a, kSamplesTruth), 0.01);
+  EXPECT_LT(rotation_error(pose.b_from_a, kSamplesTruth), 0.3);
   ASSERT_EQ(pair.at_reference.size(), 2u) << "send whole as reference, then predict";
   EXPECT_EQ(pair.at_reference[0].action, FrameDecision::Action::kSendReference);
   EXPECT_EQ(pair.at_reference[1].action, FrameDecision::Action::kPredict);
@@ -118,7 +118,7 @@ TEST(SamplesProtocol, EndsWithTheTruePoseAndBothRobotsKnowWhatToDo) {
 
 TEST(SamplesProtocol, CountsItsBytesAndMessagesHonestly) {
   Pair pair;
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_EQ(pair.poses[0].bytes_spent, pair.bytes);
@@ -136,7 +136,7 @@ TEST(SamplesProtocol, IntrinsicsCrossTheRadioOnce) {
     return std::vector{message};
   };
   for (int k = 0; k < 3; ++k) {
-    pair.offer(frame_a(1000 + k), frame_b(1000 + k));
+    pair.offer(corner_a(1000 + k), corner_b(1000 + k));
     pair.run(from_seconds(0.4));
   }
   EXPECT_EQ(pair.poses.size(), 3u);
@@ -152,17 +152,17 @@ TEST(SamplesProtocol, ThePapersWayResamplesAndAgrees) {
     options.max_iterations = 50;
     options.limits.max_residual_sigmas = 10.0;
   });
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(2.0));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_TRUE(pair.poses[0].verdict.accepted()) << describe(pair.poses[0].verdict);
-  EXPECT_LT(translation_error(pair.poses[0].b_from_a, kTruth), 0.03);
+  EXPECT_LT(translation_error(pair.poses[0].b_from_a, kSamplesTruth), 0.03);
   EXPECT_EQ(pair.messages, 4 * pair.poses[0].iterations + 1);
 }
 
 TEST(SamplesProtocol, NoOverlapIsRejectedAndBGoesOutWhole) {
   Pair pair;
-  pair.offer(frame_a(), corner_frame(test_motion(0.2, 150.0), 1000, "b"));
+  pair.offer(corner_a(), corner_frame(test_motion(0.2, 150.0), 1000, "b"));
   pair.run(from_seconds(3.0));
   ASSERT_EQ(pair.poses.size(), 1u);
   const PoseVerdict& verdict = pair.poses[0].verdict;
@@ -181,7 +181,7 @@ TEST(SamplesProtocol, AnIterationThatIsCutShortSaysHowFarItStillMoved) {
     options.local_start = false;
     options.max_iterations = 1;
   });
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.poses.size(), 1u);
   const PoseVerdict& verdict = pair.poses[0].verdict;
@@ -212,10 +212,10 @@ TEST(SamplesProtocol, AnyLostMessageCostsOneExchangeNotTheSession) {
     pair.channel = [&](const PoseMessage& message, bool) {
       return sent++ == lost ? std::vector<PoseMessage>{} : std::vector{message};
     };
-    pair.offer(frame_a(1000), frame_b(1000));
+    pair.offer(corner_a(1000), corner_b(1000));
     pair.run(from_seconds(1.5));
     ASSERT_EQ(pair.at_dependent.size(), 1u) << "lost message " << lost;
-    pair.offer(frame_a(2000), frame_b(2000));
+    pair.offer(corner_a(2000), corner_b(2000));
     pair.run(from_seconds(0.4));
     ASSERT_EQ(pair.at_dependent.size(), 2u) << "lost message " << lost;
     EXPECT_EQ(pair.at_dependent[1].action, FrameDecision::Action::kSendSparse)
@@ -227,7 +227,7 @@ TEST(SamplesProtocol, DoubledAndReorderedMessagesDoNoHarm) {
   Pair pair;
   std::mt19937 random(3);
   pair.channel = [&](const PoseMessage& message, bool) { return std::vector{message, message}; };
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(0.5));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_TRUE(pair.poses[0].verdict.accepted()) << describe(pair.poses[0].verdict);
@@ -236,7 +236,7 @@ TEST(SamplesProtocol, DoubledAndReorderedMessagesDoNoHarm) {
 
 TEST(SamplesProtocol, ASilentReferenceLetsBGoOutWhole) {
   Pair pair;
-  pair.offer(nullptr, frame_b());
+  pair.offer(nullptr, corner_b());
   pair.run(from_seconds(1.2));
   ASSERT_EQ(pair.at_dependent.size(), 1u);
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendWhole);
@@ -245,10 +245,10 @@ TEST(SamplesProtocol, ASilentReferenceLetsBGoOutWhole) {
 
 TEST(SamplesProtocol, FramesThatCannotBePairedAreNotCalledSilence) {
   Pair pair;
-  pair.offer(frame_a(from_seconds(103.7)), frame_b(from_seconds(100.0)));
+  pair.offer(corner_a(from_seconds(103.7)), corner_b(from_seconds(100.0)));
   for (int k = 1; k < 25; ++k) {  // frames go on
     pair.run(from_seconds(0.1));
-    pair.offer(nullptr, frame_b(from_seconds(100.0 + 0.1 * k)));
+    pair.offer(nullptr, corner_b(from_seconds(100.0 + 0.1 * k)));
   }
   ASSERT_FALSE(pair.at_dependent.empty());
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendWhole);
@@ -258,7 +258,7 @@ TEST(SamplesProtocol, FramesThatCannotBePairedAreNotCalledSilence) {
 
 TEST(SamplesProtocol, ASilentDependentTimesOut) {
   Pair pair;
-  pair.offer(frame_a(), nullptr);
+  pair.offer(corner_a(), nullptr);
   pair.run(from_seconds(1.0));
   ASSERT_EQ(pair.poses.size(), 1u);
   const PoseVerdict& verdict = pair.poses[0].verdict;
@@ -270,9 +270,9 @@ TEST(SamplesProtocol, ASilentDependentTimesOut) {
 
 TEST(SamplesProtocol, BsFrameMayComeAfterAsPoints) {
   Pair pair;
-  pair.offer(frame_a(), nullptr);
+  pair.offer(corner_a(), nullptr);
   pair.run(from_seconds(0.05));
-  pair.offer(nullptr, frame_b());
+  pair.offer(nullptr, corner_b());
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.at_dependent.size(), 1u);
   EXPECT_EQ(pair.at_dependent[0].action, FrameDecision::Action::kSendSparse);
@@ -280,9 +280,9 @@ TEST(SamplesProtocol, BsFrameMayComeAfterAsPoints) {
 
 TEST(SamplesProtocol, TheDependentTakesTheFrameNearestInTime) {
   Pair pair;
-  pair.offer(nullptr, frame_b(from_seconds(1.00)));
-  pair.offer(nullptr, frame_b(from_seconds(1.03)));
-  pair.offer(frame_a(from_seconds(1.02)), nullptr);
+  pair.offer(nullptr, corner_b(from_seconds(1.00)));
+  pair.offer(nullptr, corner_b(from_seconds(1.03)));
+  pair.offer(corner_a(from_seconds(1.02)), nullptr);
   pair.run(from_seconds(0.4));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_EQ(pair.poses[0].dependent_stamp, from_seconds(1.03));
@@ -294,7 +294,7 @@ TEST(SamplesProtocol, MessagesForOthersAreIgnored) {
     if (auto* samples = std::get_if<SamplesMessage>(&message)) samples->receiver = "c";
     return std::vector{message};
   };
-  pair.offer(frame_a(), frame_b());
+  pair.offer(corner_a(), corner_b());
   pair.run(from_seconds(0.3));
   EXPECT_EQ(pair.messages, 1) << "b must not answer what is for c";
 }
@@ -318,13 +318,13 @@ TEST(SamplesProtocol, GarbageFromThePeerIsReportedAndSurvived) {
   int k = 0;
   while (garbage > 0 && k < 100) {
     ++k;
-    pair.offer(frame_a(1000 * k), frame_b(1000 * k));
+    pair.offer(corner_a(1000 * k), corner_b(1000 * k));
     pair.run(from_seconds(1.2));
   }
   const std::size_t before = pair.poses.size();
-  pair.offer(frame_a(1000000), frame_b(1000000));
+  pair.offer(corner_a(1000000), corner_b(1000000));
   pair.run(from_seconds(1.2));
-  pair.offer(frame_a(2000000), frame_b(2000000));
+  pair.offer(corner_a(2000000), corner_b(2000000));
   pair.run(from_seconds(1.2));
   ASSERT_GE(pair.poses.size(), before + 1);
   EXPECT_TRUE(pair.poses.back().verdict.accepted()) << describe(pair.poses.back().verdict);
@@ -332,23 +332,23 @@ TEST(SamplesProtocol, GarbageFromThePeerIsReportedAndSurvived) {
 
 TEST(SamplesProtocol, ARestartedReferenceIsServedAtOnce) {
   Pair pair;
-  pair.offer(frame_a(1000), frame_b(1000));
+  pair.offer(corner_a(1000), corner_b(1000));
   pair.run(from_seconds(0.4));
   SamplesOptions options = options_of_tests();
   options.first_exchange = 5000;
   pair.reference = make_samples_reference("a", "b", options);
   for (const Stamp stamp : {2000, 3000}) {  // the first tells b that its camera is unknown again
-    pair.offer(frame_a(stamp), frame_b(stamp));
+    pair.offer(corner_a(stamp), corner_b(stamp));
     pair.run(from_seconds(1.2));
   }
   EXPECT_TRUE(pair.poses.back().verdict.accepted()) << describe(pair.poses.back().verdict);
 }
 
 TEST(SamplesProtocol, AFrameWithoutDepthIsSaidSo) {
-  auto empty = std::make_shared<RgbdFrame>(*frame_a());
+  auto empty = std::make_shared<RgbdFrame>(*corner_a());
   empty->depth.counts = cv::Mat(240, 320, CV_16UC1, cv::Scalar(0));
   Pair pair;
-  pair.offer(empty, frame_b());
+  pair.offer(empty, corner_b());
   pair.run(from_seconds(0.2));
   ASSERT_EQ(pair.poses.size(), 1u);
   EXPECT_EQ(describe(pair.poses[0].verdict), "too few points: points with depth 0, needs 30");

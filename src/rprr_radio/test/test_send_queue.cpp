@@ -16,7 +16,7 @@
 namespace rprr {
 namespace {
 
-constexpr SteadyTime kStart = steady_seconds(5000.0);
+constexpr SteadyTime kQueueStart = steady_seconds(5000.0);
 constexpr Duration kMillisecond = from_seconds(0.001);
 
 SendQueueOptions options_of(double bandwidth) {
@@ -56,8 +56,9 @@ std::vector<SendOrder> pump(SendQueue& queue, SteadyTime now, std::size_t bytes 
 
 TEST(SendQueue, WithoutALimitFramesGoAtOnceInTheirOrderAndInOnePiece) {
   SendQueue queue(options_of(0.0));
-  for (Stamp stamp = 1; stamp <= 3; ++stamp) EXPECT_TRUE(queue.offer(whole(stamp), kStart).empty());
-  const auto sent = pump(queue, kStart, 50000);
+  for (Stamp stamp = 1; stamp <= 3; ++stamp)
+    EXPECT_TRUE(queue.offer(whole(stamp), kQueueStart).empty());
+  const auto sent = pump(queue, kQueueStart, 50000);
   ASSERT_EQ(sent.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(sent[i].stamp, static_cast<Stamp>(i + 1));
@@ -69,7 +70,8 @@ TEST(SendQueue, WithoutALimitTheOldestGivesWayInAFullQueue) {
   SendQueue queue(options_of(0.0));
   std::vector<Stamp> dropped;
   for (Stamp stamp = 1; stamp <= 7; ++stamp) {
-    for (const QueuedFrame& gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone.stamp);
+    for (const QueuedFrame& gone : queue.offer(whole(stamp), kQueueStart))
+      dropped.push_back(gone.stamp);
   }
   EXPECT_EQ(dropped, (std::vector<Stamp>{1, 2}));
   EXPECT_EQ(queue.waiting(), 5u);
@@ -91,10 +93,10 @@ TEST(SendQueue, AnyTwoSecondsKeepToTheBandwidthAndUseIt) {
       in_window -= window.front().second;
       window.pop_front();
     }
-    ASSERT_LE(in_window, 2.0 * kBandwidth) << to_seconds(now - kStart) << " s";
+    ASSERT_LE(in_window, 2.0 * kBandwidth) << to_seconds(now - kQueueStart) << " s";
   };
-  SteadyTime now = kStart;
-  for (; now < kStart + from_seconds(60.0); now += 3 * kMillisecond) {
+  SteadyTime now = kQueueStart;
+  for (; now < kQueueStart + from_seconds(60.0); now += 3 * kMillisecond) {
     if (queue.link_state(now).has_room) {  // as the exchange does: a preview, then the frame
       queue.spent(2300, now);
       count(now, 2300.0);
@@ -106,20 +108,21 @@ TEST(SendQueue, AnyTwoSecondsKeepToTheBandwidthAndUseIt) {
     }
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(total, 0.8 * kBandwidth * to_seconds(now - kStart));
+  EXPECT_GT(total, 0.8 * kBandwidth * to_seconds(now - kQueueStart));
 }
 
 TEST(SendQueue, ALimitedFrameComesInChunksThatMakeItAgain) {
   SendQueue queue(options_of(20000.0));
-  queue.offer(whole(7), kStart);
-  const auto order = queue.next_to_encode(kStart);
+  queue.offer(whole(7), kQueueStart);
+  const auto order = queue.next_to_encode(kQueueStart);
   ASSERT_TRUE(order);
   Bytes data(9001);
   for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i * 7);
-  queue.encoded(*order, data, kStart);
+  queue.encoded(*order, data, kQueueStart);
   FrameAssembler assembler;
   std::optional<FrameAssembler::Frame> frame;
-  for (SteadyTime now = kStart; now < kStart + from_seconds(2.0) && !frame; now += kMillisecond) {
+  for (SteadyTime now = kQueueStart; now < kQueueStart + from_seconds(2.0) && !frame;
+       now += kMillisecond) {
     while (const auto message = queue.next_to_send(now)) {
       ASSERT_TRUE(is_chunk(message->data));
       const Result<FrameChunk> chunk = parse_chunk(message->data);
@@ -134,30 +137,32 @@ TEST(SendQueue, ALimitedFrameComesInChunksThatMakeItAgain) {
 
 TEST(SendQueue, WithALimitOnlyTheNewestWaitsAndIsEncodedLate) {
   SendQueue queue(options_of(20000.0));
-  queue.offer(whole(1), kStart);
-  pump(queue, kStart, 30000);  // on the air for a while
+  queue.offer(whole(1), kQueueStart);
+  pump(queue, kQueueStart, 30000);  // on the air for a while
   std::vector<Stamp> dropped;
   for (Stamp stamp = 2; stamp <= 9; ++stamp) {
-    for (const QueuedFrame& gone : queue.offer(whole(stamp), kStart)) dropped.push_back(gone.stamp);
+    for (const QueuedFrame& gone : queue.offer(whole(stamp), kQueueStart))
+      dropped.push_back(gone.stamp);
   }
   EXPECT_EQ(dropped.size(), 7u);
-  EXPECT_FALSE(queue.next_to_encode(kStart)) << "the radio is busy";
-  EXPECT_FALSE(queue.link_state(kStart).has_room);
-  EXPECT_NEAR(queue.backlog(kStart), 30000.0 / 18000.0, 0.3);
-  SteadyTime now = kStart;
+  EXPECT_FALSE(queue.next_to_encode(kQueueStart)) << "the radio is busy";
+  EXPECT_FALSE(queue.link_state(kQueueStart).has_room);
+  EXPECT_NEAR(queue.backlog(kQueueStart), 30000.0 / 18000.0, 0.3);
+  SteadyTime now = kQueueStart;
   std::vector<SendOrder> sent;
-  while (queue.waiting() > 0 && now < kStart + from_seconds(5.0)) {
+  while (queue.waiting() > 0 && now < kQueueStart + from_seconds(5.0)) {
     now += 10 * kMillisecond;
     pump(queue, now, 1000);
   }
-  EXPECT_LT(now, kStart + from_seconds(2.5));
+  EXPECT_LT(now, kQueueStart + from_seconds(2.5));
 }
 
 TEST(SendQueue, WholeAndSparseFramesTakeTurns) {
   SendQueue queue(options_of(20000.0));
   std::vector<Stamp> encoded;
   Stamp stamp = 1;
-  for (SteadyTime now = kStart; now < kStart + from_seconds(10.0); now += 10 * kMillisecond) {
+  for (SteadyTime now = kQueueStart; now < kQueueStart + from_seconds(10.0);
+       now += 10 * kMillisecond) {
     queue.offer(whole(2 * stamp), now);
     queue.offer(sparse(2 * stamp + 1, 1), now);
     ++stamp;
@@ -180,7 +185,7 @@ TEST(SendQueue, TheLimitOfAFrameLeavesRoomForTheExchange) {
   SendQueue queue(options);
   std::size_t limit = 0;
   for (int i = 0; i < 30; ++i) {
-    const SteadyTime now = kStart + i * from_seconds(2.0);
+    const SteadyTime now = kQueueStart + i * from_seconds(2.0);
     queue.spent(2300, now);
     queue.offer(whole(i + 1), now);
     const auto order = queue.next_to_encode(now + from_seconds(1.0));
@@ -196,61 +201,63 @@ TEST(SendQueue, TheLimitOfAFrameLeavesRoomForTheExchange) {
 
 TEST(SendQueue, ASparseFrameWaitsForTheReceiptOfItsReference) {
   SendQueue queue(options_of(0.0));
-  queue.offer(sparse(10, 5), kStart);
-  EXPECT_EQ(pump(queue, kStart).size(), 1u) << "a station that never sent a receipt is not asked";
+  queue.offer(sparse(10, 5), kQueueStart);
+  EXPECT_EQ(pump(queue, kQueueStart).size(), 1u)
+      << "a station that never sent a receipt is not asked";
 
-  queue.receipt("a", {1, 2}, {}, 2, kStart);
-  queue.receipt("b", {}, {}, 10, kStart);
-  queue.offer(sparse(11, 6), kStart);
-  EXPECT_TRUE(pump(queue, kStart).empty());
-  queue.receipt("a", {2, 6}, {}, 6, kStart + kMillisecond);
-  const auto sent = pump(queue, kStart + kMillisecond);
+  queue.receipt("a", {1, 2}, {}, 2, kQueueStart);
+  queue.receipt("b", {}, {}, 10, kQueueStart);
+  queue.offer(sparse(11, 6), kQueueStart);
+  EXPECT_TRUE(pump(queue, kQueueStart).empty());
+  queue.receipt("a", {2, 6}, {}, 6, kQueueStart + kMillisecond);
+  const auto sent = pump(queue, kQueueStart + kMillisecond);
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].data[0], 1) << "still sparse";
 }
 
 TEST(SendQueue, AFrameWhoseReferenceIsNotAcknowledgedGoesOutWhole) {
   SendQueue queue(options_of(0.0));
-  queue.receipt("station", {}, {}, 0, kStart);
-  queue.offer(sparse(10, 5), kStart);
-  EXPECT_TRUE(pump(queue, kStart).empty());
-  queue.receipt("a", {}, {}, 0, kStart + from_seconds(1.9));
-  EXPECT_TRUE(pump(queue, kStart + from_seconds(1.9)).empty());
-  const auto sent = pump(queue, kStart + from_seconds(2.0));
+  queue.receipt("station", {}, {}, 0, kQueueStart);
+  queue.offer(sparse(10, 5), kQueueStart);
+  EXPECT_TRUE(pump(queue, kQueueStart).empty());
+  queue.receipt("a", {}, {}, 0, kQueueStart + from_seconds(1.9));
+  EXPECT_TRUE(pump(queue, kQueueStart + from_seconds(1.9)).empty());
+  const auto sent = pump(queue, kQueueStart + from_seconds(2.0));
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].data[0], 2);
 }
 
 TEST(SendQueue, WithoutReceiptsAnyMoreFramesAreNotHeldBack) {
   SendQueue queue(options_of(0.0));
-  queue.receipt("a", {1}, {}, 1, kStart);
-  queue.offer(sparse(10, 5), kStart + from_seconds(3.5));
-  EXPECT_EQ(pump(queue, kStart + from_seconds(3.5)).size(), 1u);
+  queue.receipt("a", {1}, {}, 1, kQueueStart);
+  queue.offer(sparse(10, 5), kQueueStart + from_seconds(3.5));
+  EXPECT_EQ(pump(queue, kQueueStart + from_seconds(3.5)).size(), 1u);
 }
 
 TEST(SendQueue, AWholeFrameIsRepeatedWhenAskedForButNotAtWill) {
   SendQueue queue(options_of(0.0));
-  queue.offer(whole(1), kStart);
-  const Bytes first = pump(queue, kStart)[0].data;
-  queue.receipt("b", {}, {1}, 0, kStart);
-  const auto again = pump(queue, kStart);
+  queue.offer(whole(1), kQueueStart);
+  const Bytes first = pump(queue, kQueueStart)[0].data;
+  queue.receipt("b", {}, {1}, 0, kQueueStart);
+  const auto again = pump(queue, kQueueStart);
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(again[0].data, first);
   EXPECT_EQ(again[0].stamp, 1);
-  for (int i = 0; i < 100; ++i) queue.receipt("b", {}, {1, 1, 1}, 0, kStart + i * kMillisecond);
-  EXPECT_TRUE(pump(queue, kStart).empty()) << "not within the period";
-  queue.receipt("b", {}, {77}, 0, kStart + from_seconds(5.0));
-  EXPECT_TRUE(pump(queue, kStart + from_seconds(5.0)).empty()) << "a frame that never was";
+  for (int i = 0; i < 100; ++i)
+    queue.receipt("b", {}, {1, 1, 1}, 0, kQueueStart + i * kMillisecond);
+  EXPECT_TRUE(pump(queue, kQueueStart).empty()) << "not within the period";
+  queue.receipt("b", {}, {77}, 0, kQueueStart + from_seconds(5.0));
+  EXPECT_TRUE(pump(queue, kQueueStart + from_seconds(5.0)).empty()) << "a frame that never was";
   EXPECT_EQ(queue.repeated(), 1u);
 }
 
 TEST(SendQueue, BeginsNothingWhileFramesAreOnTheirWayUnacknowledged) {
   SendQueue queue(options_of(0.0));
-  queue.receipt("b", {}, {}, 0, kStart);
-  queue.offer(whole(1), kStart);
-  pump(queue, kStart);
-  EXPECT_FALSE(queue.link_state(kStart).has_room) << "one at a time until the radio is known";
-  SteadyTime now = kStart + 10 * kMillisecond;
+  queue.receipt("b", {}, {}, 0, kQueueStart);
+  queue.offer(whole(1), kQueueStart);
+  pump(queue, kQueueStart);
+  EXPECT_FALSE(queue.link_state(kQueueStart).has_room) << "one at a time until the radio is known";
+  SteadyTime now = kQueueStart + 10 * kMillisecond;
   queue.receipt("b", {1}, {}, 1, now);
   EXPECT_EQ(queue.link_state(now).references, std::vector<Stamp>{1});
   for (Stamp stamp = 2; stamp <= 4; ++stamp) {
@@ -267,16 +274,16 @@ TEST(SendQueue, BeginsNothingWhileFramesAreOnTheirWayUnacknowledged) {
 
 TEST(SendQueue, LostFramesDoNotBlockTheRadioForGood) {
   SendQueue queue(options_of(0.0));
-  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
-  pump(queue, kStart);
-  const SteadyTime later = kStart + from_seconds(4.5);
+  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kQueueStart);
+  pump(queue, kQueueStart);
+  const SteadyTime later = kQueueStart + from_seconds(4.5);
   queue.receipt("b", {}, {}, 0, later - kMillisecond);
   EXPECT_TRUE(queue.link_state(later).has_room);
 }
 
 TEST(SendQueue, ALostFrameDoesNotMakeTheRadioSeemNarrow) {
   SendQueue queue(options_of(0.0));
-  SteadyTime now = kStart;
+  SteadyTime now = kQueueStart;
   const auto send = [&](Stamp stamp, bool is_lost) {
     queue.receipt("b", {}, {}, 0, now);
     queue.offer(whole(stamp), now);
@@ -295,12 +302,12 @@ TEST(SendQueue, ALostFrameDoesNotMakeTheRadioSeemNarrow) {
 
 TEST(SendQueue, ANewListenerIsNotWaitedForInVain) {
   SendQueue queue(options_of(0.0));
-  queue.receipt("b", {}, {}, 0, kStart);
-  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
-  pump(queue, kStart);
-  EXPECT_FALSE(queue.link_state(kStart).has_room);
+  queue.receipt("b", {}, {}, 0, kQueueStart);
+  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kQueueStart);
+  pump(queue, kQueueStart);
+  EXPECT_FALSE(queue.link_state(kQueueStart).has_room);
   queue.listener_joined();
-  EXPECT_TRUE(queue.link_state(kStart).has_room);
+  EXPECT_TRUE(queue.link_state(kQueueStart).has_room);
 }
 
 // A radio of so many bytes a second, whose receipts come as soon as a frame is through.
@@ -328,12 +335,13 @@ TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
   SendQueueOptions options = options_of(0.0);
   options.frame_rate = 2.0;
   SendQueue queue(options);
-  queue.receipt("b", {}, {}, 0, kStart);
+  queue.receipt("b", {}, {}, 0, kQueueStart);
   SlowRadio radio{20000.0, {}, {}, 0};
   Stamp stamp = 1;
   Duration late = 0;
   int delivered = 0;
-  for (SteadyTime now = kStart; now < kStart + from_seconds(60.0); now += 10 * kMillisecond) {
+  for (SteadyTime now = kQueueStart; now < kQueueStart + from_seconds(60.0);
+       now += 10 * kMillisecond) {
     radio.deliver(queue, now);
     if (queue.link_state(now).has_room) queue.offer(whole(stamp++), now);
     while (const auto order = queue.next_to_encode(now)) {
@@ -343,9 +351,9 @@ TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
       queue.encoded(*order, Bytes(bytes), now);
       while (const auto message = queue.next_to_send(now)) radio.take(*message, now);
       ++delivered;
-      if (now > kStart + from_seconds(20.0)) late = std::max(late, radio.free_at - now);
+      if (now > kQueueStart + from_seconds(20.0)) late = std::max(late, radio.free_at - now);
     }
-    if (now == kStart + from_seconds(20.0)) radio.most_under_way = 0;
+    if (now == kQueueStart + from_seconds(20.0)) radio.most_under_way = 0;
   }
   EXPECT_LE(radio.most_under_way, 1u) << "nothing queues up in the radio";
   EXPECT_LT(to_seconds(late), 0.7) << "frames got coarser";
@@ -354,10 +362,11 @@ TEST(SendQueue, WithoutABandwidthTheReceiptsTellHowMuchFits) {
 
 TEST(SendQueue, WhileTheRadioIsDownNextToNothingIsHandedOver) {
   SendQueue queue(options_of(0.0));
-  queue.receipt("b", {}, {}, 0, kStart);
+  queue.receipt("b", {}, {}, 0, kQueueStart);
   std::size_t sent = 0;
   Stamp stamp = 1;
-  for (SteadyTime now = kStart; now < kStart + from_seconds(20.0); now += 100 * kMillisecond) {
+  for (SteadyTime now = kQueueStart; now < kQueueStart + from_seconds(20.0);
+       now += 100 * kMillisecond) {
     queue.offer(whole(stamp++), now);
     sent += pump(queue, now).size();
   }
@@ -368,7 +377,7 @@ TEST(SendQueue, WhileTheRadioIsDownNextToNothingIsHandedOver) {
 
 TEST(SendQueue, LearnsHowLongReceiptsOfReferencesTake) {
   SendQueue queue(options_of(0.0));
-  SteadyTime now = kStart;
+  SteadyTime now = kQueueStart;
   int whole_frames = 0;
   for (Stamp stamp = 1; stamp <= 5; ++stamp) {  // each reference takes four seconds
     queue.receipt("a", {stamp - 1}, {}, stamp - 1, now);
@@ -387,9 +396,9 @@ TEST(SendQueue, LearnsHowLongReceiptsOfReferencesTake) {
 
 TEST(SendQueue, WithoutReceiptsWhatWasSentCanBeReferredTo) {
   SendQueue queue(options_of(0.0));
-  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kStart);
-  pump(queue, kStart);
-  EXPECT_EQ(queue.link_state(kStart).references, (std::vector<Stamp>{2, 3}));
+  for (Stamp stamp = 1; stamp <= 3; ++stamp) queue.offer(whole(stamp), kQueueStart);
+  pump(queue, kQueueStart);
+  EXPECT_EQ(queue.link_state(kQueueStart).references, (std::vector<Stamp>{2, 3}));
 }
 
 TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
@@ -397,7 +406,7 @@ TEST(SendQueue, WhereReceiptsAreNotWaitedForTheyChangeNothing) {
   options.receipt_timeout = 0;
   SendQueue queue(options);
   for (Stamp stamp = 1; stamp <= 20; ++stamp) {
-    const SteadyTime now = kStart + from_seconds(2.0 * static_cast<double>(stamp));
+    const SteadyTime now = kQueueStart + from_seconds(2.0 * static_cast<double>(stamp));
     queue.offer(whole(stamp), now);
     queue.offer(sparse(100 + stamp, 7), now);
     const auto sent = pump(queue, now, 40000);
@@ -413,10 +422,10 @@ TEST(SendQueue, ReceiptsOfAnybodyAndOfAnyLengthTakeNoMemory) {
   SendQueue queue(options_of(0.0));
   const std::vector<Stamp> many(100000, 42);
   for (int i = 0; i < 1000; ++i) {
-    queue.receipt("robot" + std::to_string(i), many, many, 42, kStart + i);
+    queue.receipt("robot" + std::to_string(i), many, many, 42, kQueueStart + i);
   }
-  queue.receipt("b", many, many, 42, kStart + 5000);
-  EXPECT_LE(queue.link_state(kStart + 6000).references.size(), 64u);
+  queue.receipt("b", many, many, 42, kQueueStart + 5000);
+  EXPECT_LE(queue.link_state(kQueueStart + 6000).references.size(), 64u);
 }
 
 }  // namespace

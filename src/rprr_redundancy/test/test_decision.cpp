@@ -9,12 +9,12 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "plane_views.hpp"
+
 namespace rprr {
 namespace {
 
-const Camera kVga{640, 480, 528, 528, 319.5, 239.5};
-const Camera kPartial{540, 360, 460, 460, 269.5, 179.5};  // 540 = 67 blocks and a half
-constexpr int kQuality = 25;                              // of the preview's colours
+constexpr int kQuality = 25;  // of the preview's colours
 
 struct View {
   DepthFrame depth;

@@ -6,21 +6,10 @@
 
 #include <opencv2/core.hpp>
 
+#include "plane_views.hpp"
+
 namespace rprr {
 namespace {
-
-const Camera kVga{640, 480, 528, 528, 319.5, 239.5};
-const Camera kPartial{540, 360, 460, 460, 269.5, 179.5};  // 540 = 67 blocks and a half
-
-DepthFrame plane(const Camera& camera, int millimetres) {
-  return {cv::Mat(camera.height, camera.width, CV_16UC1, cv::Scalar(millimetres)), 0.001};
-}
-
-Pose shift(double x, double y, double z) {
-  Pose pose = Pose::Identity();
-  pose.translation() << x, y, z;
-  return pose;
-}
 
 class PredictionOfBothSizes : public testing::TestWithParam<Camera> {};
 INSTANTIATE_TEST_SUITE_P(Sizes, PredictionOfBothSizes, testing::Values(kVga, kPartial));

@@ -16,7 +16,7 @@ namespace {
 using Action = FrameDecision::Action;
 
 const Camera kCamera{160, 120, 140, 140, 79.5, 59.5};
-const BlockGrid kGrid(160, 120);
+const BlockGrid kSmallGrid(160, 120);
 
 Pose b_from_a() {
   Pose pose = Pose::Identity();
@@ -65,7 +65,7 @@ class RedundancyTest : public testing::Test {
   }
 
   BlockMask asked = [] {
-    BlockMask mask(kGrid);
+    BlockMask mask(kSmallGrid);
     mask.set(17);
     return mask;
   }();

@@ -6,24 +6,12 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "plane_views.hpp"
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_redundancy/prediction.hpp"
 
 namespace rprr {
 namespace {
-
-const Camera kVga{640, 480, 528, 528, 319.5, 239.5};
-const Camera kPartial{540, 360, 460, 460, 269.5, 179.5};
-
-DepthFrame plane(const Camera& camera, int millimetres) {
-  return {cv::Mat(camera.height, camera.width, CV_16UC1, cv::Scalar(millimetres)), 0.001};
-}
-
-Pose shift(double x, double y, double z) {
-  Pose pose = Pose::Identity();
-  pose.translation() << x, y, z;
-  return pose;
-}
 
 // The definition, pixel by pixel.
 BlockMask by_definition(const DepthFrame& b, const Camera& b_camera, const Camera& a_camera,

@@ -8,7 +8,7 @@
 namespace rprr {
 namespace {
 
-constexpr Duration kPeriod = from_seconds(1.0 / 30.0);
+constexpr Duration kFramePeriod = from_seconds(1.0 / 30.0);
 
 /// What the fake camera does; shared between test, driver and device.
 struct World {
@@ -16,7 +16,7 @@ struct World {
   bool plugged = true;
   bool colour = true;
   bool depth = true;
-  Duration period = kPeriod;
+  Duration period = kFramePeriod;
   Duration phase = from_seconds(0.004);
   int opened = 0;
   int asked = 0;
@@ -160,7 +160,7 @@ TEST_F(DeviceSessionTest, SilentStreamIsNamedAndTheCameraOpenedAnew) {
 }
 
 TEST_F(DeviceSessionTest, SlowStreamsAreReportedAndKept) {
-  world_.period = 3 * kPeriod;
+  world_.period = 3 * kFramePeriod;
   DeviceSession session = make();
   run(session, 20.0);
   EXPECT_TRUE(noticed("rate"));

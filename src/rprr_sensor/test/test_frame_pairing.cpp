@@ -7,7 +7,7 @@ namespace rprr {
 namespace {
 
 using Kind = DeviceImage::Kind;
-constexpr Duration kPeriod = from_seconds(1.0 / 30.0);
+constexpr Duration kPairPeriod = from_seconds(1.0 / 30.0);
 constexpr Duration kMillisecond = 1000000;
 
 /// An image whose one pixel is its number.
@@ -16,13 +16,13 @@ DeviceImage image(Kind kind, int number) {
 }
 
 TEST(FramePairing, SteadyStreamsLoseNothingWhateverTheirPhase) {
-  for (Duration phase = 0; phase < kPeriod; phase += kMillisecond) {
-    FramePairing pairing(kPeriod / 2 + kMillisecond);
+  for (Duration phase = 0; phase < kPairPeriod; phase += kMillisecond) {
+    FramePairing pairing(kPairPeriod / 2 + kMillisecond);
     int pairs = 0;
     for (int k = 0; k < 100; ++k) {
-      auto pair = pairing.add(image(Kind::colour, k), k * kPeriod);
+      auto pair = pairing.add(image(Kind::colour, k), k * kPairPeriod);
       pairs += pair ? 1 : 0;
-      pair = pairing.add(image(Kind::depth, k), k * kPeriod + phase);
+      pair = pairing.add(image(Kind::depth, k), k * kPairPeriod + phase);
       pairs += pair ? 1 : 0;
     }
     EXPECT_GE(pairs, 99) << "phase " << to_seconds(phase);
@@ -44,10 +44,10 @@ TEST(FramePairing, StampsOfAPairAreWithinTheWindowAndItsOwn) {
 }
 
 TEST(FramePairing, OneStreamAloneGivesNothingAndDoesNotGrow) {
-  FramePairing pairing(kPeriod);
-  for (int k = 0; k < 1000; ++k) EXPECT_FALSE(pairing.add(image(Kind::depth, k), k * kPeriod));
+  FramePairing pairing(kPairPeriod);
+  for (int k = 0; k < 1000; ++k) EXPECT_FALSE(pairing.add(image(Kind::depth, k), k * kPairPeriod));
   EXPECT_GE(pairing.unpaired(), 990u);
-  EXPECT_TRUE(pairing.add(image(Kind::colour, 0), 999 * kPeriod));
+  EXPECT_TRUE(pairing.add(image(Kind::colour, 0), 999 * kPairPeriod));
 }
 
 TEST(FramePairing, ClockThatJumpsBackBeginsAnew) {

@@ -17,7 +17,7 @@ namespace rprr {
 namespace {
 
 const Camera kCamera{24, 16, 20.5, 21.25, 11.5, 7.5};
-constexpr Stamp kStart = 1305031790645155001;
+constexpr Stamp kFirstStamp = 1305031790645155001;
 
 RgbdImage random_image(std::uint64_t seed, double unit) {
   Random random(seed);
@@ -46,7 +46,7 @@ void write_folder(const std::string& path, int frames, double unit) {
   for (int k = 0; k < frames; ++k) {
     const auto seed = static_cast<std::uint64_t>(k);
     const auto added =
-        writer->add(kStart + k * 33333333LL, random_image(seed, unit), random_pose(seed));
+        writer->add(kFirstStamp + k * 33333333LL, random_image(seed, unit), random_pose(seed));
     ASSERT_TRUE(added) << added.reason();
   }
 }
@@ -65,7 +65,7 @@ TEST(TumFolder, WhatIsWrittenIsRead) {
     EXPECT_EQ(folder->depth_unit, unit);
     ASSERT_EQ(folder->entries.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(folder->entries[k].stamp, kStart + static_cast<Stamp>(k) * 33333333)
+      EXPECT_EQ(folder->entries[k].stamp, kFirstStamp + static_cast<Stamp>(k) * 33333333)
           << "stamps keep their nanoseconds";
       ASSERT_TRUE(folder->entries[k].world_from_camera);
       EXPECT_TRUE(folder->entries[k].world_from_camera->isApprox(random_pose(k), 1e-9));

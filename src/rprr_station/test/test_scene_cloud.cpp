@@ -13,7 +13,7 @@
 namespace rprr {
 namespace {
 
-const Camera kCamera{160, 120, 140, 140, 79.5, 59.5};
+const Camera kCloudCamera{160, 120, 140, 140, 79.5, 59.5};
 constexpr double kWall = 2.0;      // metres before the reference
 constexpr double kScreen = 1.2;    // a screen before the wall ...
 constexpr double kScreenTo = 0.1;  // ... left of this
@@ -25,18 +25,18 @@ RebuiltFrame view_of_wall(const std::string& robot, const Pose& b_from_a, bool s
   RebuiltFrame frame;
   frame.robot = robot;
   frame.frame_id = robot + "_rgb_optical_frame";
-  frame.camera = kCamera;
+  frame.camera = kCloudCamera;
   frame.b_from_a = b_from_a;
   frame.depth.unit = 0.001;
-  frame.depth.counts.create(kCamera.height, kCamera.width, CV_16UC1);
+  frame.depth.counts.create(kCloudCamera.height, kCloudCamera.width, CV_16UC1);
   frame.bgr = cv::Mat(frame.depth.counts.size(), CV_8UC3, cv::Scalar(1, 2, 3));
-  frame.received_depth = BlockMask(BlockGrid(kCamera.width, kCamera.height), true);
+  frame.received_depth = BlockMask(BlockGrid(kCloudCamera.width, kCloudCamera.height), true);
   const Pose to_reference = b_from_a.inverse();
   std::mt19937 random(seed);
   std::normal_distribution<double> noise;
-  for (int v = 0; v < kCamera.height; ++v) {
-    for (int u = 0; u < kCamera.width; ++u) {
-      const Eigen::Vector3d ray = to_reference.linear() * kCamera.unproject(u, v, 1.0);
+  for (int v = 0; v < kCloudCamera.height; ++v) {
+    for (int u = 0; u < kCloudCamera.width; ++u) {
+      const Eigen::Vector3d ray = to_reference.linear() * kCloudCamera.unproject(u, v, 1.0);
       const Eigen::Vector3d eye = to_reference.translation();
       double z = (kWall - eye.z()) / ray.z();
       const double z_screen = (kScreen - eye.z()) / ray.z();
@@ -83,8 +83,9 @@ std::map<std::pair<int, int>, int> cells(const Scene& scene) {
 }
 
 bool well_inside_reference(const ScenePoint& point) {
-  const Eigen::Vector2d at = kCamera.project(point.position.cast<double>());
-  return at.x() > 1 && at.y() > 1 && at.x() < kCamera.width - 2 && at.y() < kCamera.height - 2;
+  const Eigen::Vector2d at = kCloudCamera.project(point.position.cast<double>());
+  return at.x() > 1 && at.y() > 1 && at.x() < kCloudCamera.width - 2 &&
+         at.y() < kCloudCamera.height - 2;
 }
 
 Scene scene_of(SceneCloud& cloud) {
@@ -149,7 +150,7 @@ TEST(SceneCloud, DepthThatCameFromTheReferenceIsNotAdded) {
   SceneCloud cloud;
   cloud.add(reference());
   RebuiltFrame frame = dependent(stand(0.5, 0.0));
-  const BlockGrid grid(kCamera.width, kCamera.height);
+  const BlockGrid grid(kCloudCamera.width, kCloudCamera.height);
   frame.received_depth = BlockMask(grid);
   ASSERT_TRUE(cloud.add(frame));
   const std::size_t alone = reference().depth.counts.total();

@@ -16,7 +16,7 @@
 namespace rprr {
 namespace {
 
-const Camera kCamera{100, 76, 90, 90, 49.5, 37.5};  // partial blocks both ways
+const Camera kStationCamera{100, 76, 90, 90, 49.5, 37.5};  // partial blocks both ways
 constexpr Duration kPatience = from_seconds(1.0);
 
 // Colour payloads that are the image itself: this is no test of colour codecs.
@@ -36,21 +36,21 @@ Bytes raw(const cv::Mat& bgr) {
 }
 
 DepthFrame noisy_plane(unsigned seed) {
-  DepthFrame depth{cv::Mat(kCamera.height, kCamera.width, CV_16UC1), 0.0002};
+  DepthFrame depth{cv::Mat(kStationCamera.height, kStationCamera.width, CV_16UC1), 0.0002};
   std::mt19937 random(seed);
-  for (int i = 0; i < kCamera.width * kCamera.height; ++i) {
+  for (int i = 0; i < kStationCamera.width * kStationCamera.height; ++i) {
     depth.counts.ptr<std::uint16_t>()[i] = static_cast<std::uint16_t>(10000 + random() % 7);
   }
   return depth;
 }
 
 cv::Mat plain(int blue) {
-  return cv::Mat(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar(blue, 100, 200));
+  return cv::Mat(kStationCamera.height, kStationCamera.width, CV_8UC3, cv::Scalar(blue, 100, 200));
 }
 
 EncodedFrame whole_frame(int blue = 10) {
   EncodedFrame frame;
-  frame.camera = kCamera;
+  frame.camera = kStationCamera;
   frame.depth = DhcmEncoder().encode(noisy_plane(1));
   frame.colour_codec = "raw";
   frame.colour = raw(plain(blue));
@@ -58,14 +58,14 @@ EncodedFrame whole_frame(int blue = 10) {
 }
 
 BlockMask some_blocks() {
-  BlockMask mask(BlockGrid(kCamera.width, kCamera.height));
+  BlockMask mask(BlockGrid(kStationCamera.width, kStationCamera.height));
   for (const int block : {0, 5, 30, mask.grid().count() - 1}) mask.set(block);
   return mask;
 }
 
 EncodedFrame sparse_frame(Stamp reference_stamp, const std::string& reference = "a") {
   EncodedFrame frame;
-  frame.camera = kCamera;
+  frame.camera = kStationCamera;
   frame.sparse = true;
   frame.reference = reference;
   frame.reference_stamp = reference_stamp;

@@ -11,7 +11,7 @@
 namespace rprr {
 namespace {
 
-const Camera kCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
+const Camera kSceneCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
 
 const Scene& room() {
   static const Scene scene = make_room(3);
@@ -52,12 +52,12 @@ TEST(SyntheticScene, CylinderSideIsExact) {
   Primitive pole = at(Shape::cylinder, {0, 0, 2.0}, {0.25, 0.25, 3.0});
   pole.world_from_local.linear() =
       Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  const ExactView view = Scene({pole}, {0, 0, 0}).render(kCamera, Pose::Identity());
+  const ExactView view = Scene({pole}, {0, 0, 0}).render(kSceneCamera, Pose::Identity());
   int seen = 0;
-  for (int u = 0; u < kCamera.width; ++u) {
+  for (int u = 0; u < kSceneCamera.width; ++u) {
     const float z = view.metres.at<float>(77, u);
     if (z == 0.0f) continue;
-    const Eigen::Vector3d p = kCamera.unproject(u, 77, z);
+    const Eigen::Vector3d p = kSceneCamera.unproject(u, 77, z);
     ASSERT_NEAR(std::hypot(p.x(), p.z() - 2.0), 0.25, 1e-4);
     ++seen;
   }
@@ -67,25 +67,25 @@ TEST(SyntheticScene, CylinderSideIsExact) {
 TEST(SyntheticScene, NothingBehindOrAroundTheCameraIsSeen) {
   const Scene scene(
       {at(Shape::box, {0, 0, -3}, {1, 1, 1}), at(Shape::sphere, {0, 0, 0}, {1, 0, 0})}, {0, 0, 4});
-  const ExactView view = scene.render(kCamera, Pose::Identity());
+  const ExactView view = scene.render(kSceneCamera, Pose::Identity());
   EXPECT_EQ(cv::countNonZero(view.metres), 0);
 }
 
 TEST(SyntheticScene, TwoViewsAgreeWhereNothingHides) {
   for (const PairPose& pair : pair_walk(4, 11)) {
-    const ExactView a = room().render(kCamera, pair.a);
-    const ExactView b = room().render(kCamera, pair.b);
+    const ExactView a = room().render(kSceneCamera, pair.a);
+    const ExactView b = room().render(kSceneCamera, pair.b);
     const Pose b_from_a = relative_pose_of(pair.a, pair.b);
     int inside = 0;
     int agree = 0;
     int before = 0;  // a's point would stand in b's free sight: impossible
-    for (int v = 0; v < kCamera.height; v += 3) {
-      for (int u = 0; u < kCamera.width; u += 3) {
+    for (int v = 0; v < kSceneCamera.height; v += 3) {
+      for (int u = 0; u < kSceneCamera.width; u += 3) {
         const Eigen::Vector3d p =
-            b_from_a * kCamera.unproject(u, v, static_cast<double>(a.metres.at<float>(v, u)));
+            b_from_a * kSceneCamera.unproject(u, v, static_cast<double>(a.metres.at<float>(v, u)));
         if (p.z() < 0.1) continue;
-        const Eigen::Vector2d pixel = kCamera.project(p);
-        if (!kCamera.contains(pixel.x(), pixel.y())) continue;
+        const Eigen::Vector2d pixel = kSceneCamera.project(p);
+        if (!kSceneCamera.contains(pixel.x(), pixel.y())) continue;
         ++inside;
         // Around the pixel, since b has rays elsewhere.
         float low = 1e9f;
@@ -110,19 +110,20 @@ TEST(SyntheticScene, TwoViewsAgreeWhereNothingHides) {
 
 TEST(SyntheticScene, SameSeedSameRoomSamePixels) {
   const Pose pose = single_walk(1, 3)[0];
-  const ExactView one = room().render(kCamera, pose);
-  const ExactView two = make_room(3).render(kCamera, pose);
+  const ExactView one = room().render(kSceneCamera, pose);
+  const ExactView two = make_room(3).render(kSceneCamera, pose);
   EXPECT_EQ(cv::norm(one.metres, two.metres, cv::NORM_INF), 0.0);
   EXPECT_EQ(cv::norm(one.radiance, two.radiance, cv::NORM_INF), 0.0);
-  const ExactView other = make_room(4).render(kCamera, pose);
+  const ExactView other = make_room(4).render(kSceneCamera, pose);
   EXPECT_GT(cv::norm(one.metres, other.metres, cv::NORM_INF), 0.1);
 }
 
 TEST(SyntheticScene, EveryViewOfTheRoomIsClosedAndTextured) {
   const std::vector<Pose> walk = single_walk(100, 8);
   for (std::size_t k = 0; k < walk.size(); k += 20) {
-    const ExactView view = room().render(kCamera, walk[k]);
-    EXPECT_EQ(cv::countNonZero(view.metres), kCamera.width * kCamera.height) << "hole in the room";
+    const ExactView view = room().render(kSceneCamera, walk[k]);
+    EXPECT_EQ(cv::countNonZero(view.metres), kSceneCamera.width * kSceneCamera.height)
+        << "hole in the room";
     double nearest = 0.0;
     double farthest = 0.0;
     cv::minMaxLoc(view.metres, &nearest, &farthest);
@@ -131,8 +132,8 @@ TEST(SyntheticScene, EveryViewOfTheRoomIsClosedAndTextured) {
     EXPECT_TRUE(cv::checkRange(view.radiance, true, nullptr, 0.0, 10.0));
     int flat = 0;
     int blocks = 0;
-    for (int v = 0; v + 16 <= kCamera.height; v += 16) {
-      for (int u = 0; u + 16 <= kCamera.width; u += 16, ++blocks) {
+    for (int v = 0; v + 16 <= kSceneCamera.height; v += 16) {
+      for (int u = 0; u + 16 <= kSceneCamera.width; u += 16, ++blocks) {
         cv::Scalar mean;
         cv::Scalar deviation;
         cv::meanStdDev(view.radiance(cv::Rect(u, v, 16, 16)), mean, deviation);
@@ -146,12 +147,13 @@ TEST(SyntheticScene, EveryViewOfTheRoomIsClosedAndTextured) {
 // What makes a corridor hard: depth stays as it is along it, colour does not.
 TEST(SyntheticScene, ACorridorLooksTheSameToDepthAlongIt) {
   const Scene corridor = make_corridor(4);
-  const ExactView here = corridor.render(kCamera, look_along({0.0, 0.1, 1.3}, 0.5, -0.2, 0.0));
-  const ExactView there = corridor.render(kCamera, look_along({0.4, 0.1, 1.3}, 0.5, -0.2, 0.0));
+  const ExactView here = corridor.render(kSceneCamera, look_along({0.0, 0.1, 1.3}, 0.5, -0.2, 0.0));
+  const ExactView there =
+      corridor.render(kSceneCamera, look_along({0.4, 0.1, 1.3}, 0.5, -0.2, 0.0));
   cv::Mat difference;
   cv::absdiff(here.metres, there.metres, difference);
   difference.setTo(0.0f, here.metres > 5.0f);
-  EXPECT_LT(cv::countNonZero(difference > 0.02f), kCamera.width * kCamera.height / 200);
+  EXPECT_LT(cv::countNonZero(difference > 0.02f), kSceneCamera.width * kSceneCamera.height / 200);
   cv::absdiff(here.radiance, there.radiance, difference);
   EXPECT_GT(cv::mean(difference)[1], 0.01);
 }

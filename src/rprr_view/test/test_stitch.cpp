@@ -10,14 +10,14 @@
 namespace rprr {
 namespace {
 
-constexpr int kWidth = 68;  // half a block at the right
-constexpr int kHeight = 48;
+constexpr int kStitchedWidth = 68;  // half a block at the right
+constexpr int kStitchedHeight = 48;
 
 PredictedView prediction() {
   PredictedView view;
-  view.bgr = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(10, 20, 30));
-  view.metres = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(1.23456));
-  view.provenance = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(kPredicted));
+  view.bgr = cv::Mat(kStitchedHeight, kStitchedWidth, CV_8UC3, cv::Scalar(10, 20, 30));
+  view.metres = cv::Mat(kStitchedHeight, kStitchedWidth, CV_32FC1, cv::Scalar(1.23456));
+  view.provenance = cv::Mat(kStitchedHeight, kStitchedWidth, CV_8UC1, cv::Scalar(kPredicted));
   const cv::Rect hole(20, 20, 10, 10);
   view.bgr(hole).setTo(0);
   view.metres(hole).setTo(0);
@@ -27,10 +27,12 @@ PredictedView prediction() {
 
 class StitchTest : public testing::Test {
  protected:
-  StitchTest() : mask(BlockGrid(kWidth, kHeight)), bgr(kHeight, kWidth, CV_8UC3) {
-    depth = {cv::Mat(kHeight, kWidth, CV_16UC1), 0.0002};
+  StitchTest()
+      : mask(BlockGrid(kStitchedWidth, kStitchedHeight)),
+        bgr(kStitchedHeight, kStitchedWidth, CV_8UC3) {
+    depth = {cv::Mat(kStitchedHeight, kStitchedWidth, CV_16UC1), 0.0002};
     std::mt19937 random(5);
-    for (int i = 0; i < kHeight * kWidth; ++i) {
+    for (int i = 0; i < kStitchedHeight * kStitchedWidth; ++i) {
       depth.counts.ptr<std::uint16_t>()[i] = static_cast<std::uint16_t>(random());
       bgr.ptr<cv::Vec3b>()[i] = {static_cast<std::uint8_t>(random()), 0, 255};
     }
@@ -56,7 +58,7 @@ TEST_F(StitchTest, ReceivedBlocksAreExactAndTheRestIsPredicted) {
   EXPECT_EQ(view->depth.counts.at<std::uint16_t>(10, 10), 6173) << "1.23456 m in 0.2 mm";
   EXPECT_EQ(view->bgr.at<cv::Vec3b>(10, 10), cv::Vec3b(10, 20, 30));
   EXPECT_EQ(view->depth.counts.at<std::uint16_t>(25, 25), 0) << "no depth is invented";
-  const double pixels = kWidth * kHeight;
+  const double pixels = kStitchedWidth * kStitchedHeight;
   EXPECT_NEAR(view->share_received, (64 + 32) / pixels, 1e-9);
   EXPECT_NEAR(view->share_predicted, (pixels - 64 - 32 - 100) / pixels, 1e-9);
 }

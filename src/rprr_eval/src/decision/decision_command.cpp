@@ -19,7 +19,7 @@
 namespace rprr {
 namespace {
 
-struct Arguments {
+struct DecisionArguments {
   std::string folder;
   std::size_t step = 1;
   double off_metres = 0.01;  // how far the pose is off: about what an exchange reaches
@@ -80,7 +80,7 @@ void judge(const BlockDecision& decision, const PredictedView& view, const RgbdI
   }
 }
 
-std::string run_pair(const TumFolder& folder, std::size_t k, const Arguments& arguments,
+std::string run_pair(const TumFolder& folder, std::size_t k, const DecisionArguments& arguments,
                      Decider& decider, Tally& tally) {
   const RgbdEntry& entry_a = folder.entries[k];
   const RgbdEntry& entry_b = folder.entries[k + arguments.step];
@@ -107,7 +107,7 @@ std::string run_pair(const TumFolder& folder, std::size_t k, const Arguments& ar
   return {};
 }
 
-int run(const Arguments& arguments) {
+int run(const DecisionArguments& arguments) {
   cv::setNumThreads(1);  // figures are per core
   const Result<TumFolder> folder = open_tum_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
@@ -143,7 +143,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_decision_command(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DecisionArguments>();
   CLI::App* command = app.add_subcommand(
       "decision",
       "How the decision's thresholds tell right blocks of the prediction from wrong ones: pairs of "

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct PreviewArguments {
   std::vector<std::string> folders;
   double step = PreviewOptions().step;
   int quality = PreviewOptions().colour_quality;
@@ -55,7 +55,7 @@ double median_ms(int repeats, const std::function<void()>& action) {
 }
 
 /// The error, if there is one.
-std::string measure(const RgbdImage& image, const Arguments& arguments, Figures& figures) {
+std::string measure(const RgbdImage& image, const PreviewArguments& arguments, Figures& figures) {
   BlockPreview preview;
   Bytes bytes;
   Result<BlockPreview> back = Error{"not decoded"};
@@ -78,7 +78,7 @@ std::string measure(const RgbdImage& image, const Arguments& arguments, Figures&
   return {};
 }
 
-nlohmann::ordered_json line_of(const std::string& folder, const Arguments& arguments,
+nlohmann::ordered_json line_of(const std::string& folder, const PreviewArguments& arguments,
                                const Figures& figures) {
   nlohmann::ordered_json line{{"folder", folder},
                               {"frames", figures.bytes.size()},
@@ -96,7 +96,7 @@ nlohmann::ordered_json line_of(const std::string& folder, const Arguments& argum
   return line;
 }
 
-int run(const Arguments& arguments) {
+int run(const PreviewArguments& arguments) {
   cv::setNumThreads(1);  // figures are per core
   JsonOutput json(arguments.json);
   if (!json.good()) return 1;
@@ -119,7 +119,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void add_preview_command(CLI::App& app, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PreviewArguments>();
   CLI::App* command = app.add_subcommand(
       "preview",
       "Block previews of all frames of folders: medians of bytes, PSNR of the colours against the "
