@@ -110,6 +110,16 @@ LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, R
   service_ = nh_.advertiseService("set_parameters", &LiveOptions::on_request, this);
 }
 
+LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
+                         Changed changed)
+    : LiveOptions(
+          private_nh, std::move(table),
+          [&health](const std::string& reason) {
+            health.warn("reconfiguration", "refused: " + reason);
+          },
+          std::move(changed)) {
+}
+
 bool LiveOptions::on_request(Request& request, Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<OptionValue> before;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "rprr_geometry/option_table.hpp"
+#include "rprr_ros/health.hpp"
 
 namespace rprr {
 
@@ -33,6 +34,9 @@ class LiveOptions {
   /// handle's callback queue; the structs are written there alone, and both functions are called
   /// there.
   LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Refused refused,
+              Changed changed);
+  /// The same; what is refused is a warning of health, which must outlive this.
+  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
               Changed changed);
 
  private:
