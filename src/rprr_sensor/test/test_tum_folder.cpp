@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "recordings/tum_text.hpp"
 #include "rprr_geometry/relative_pose.hpp"
 #include "rprr_sensor/recordings/tum_writer.hpp"
 #include "rprr_synthetic/random.hpp"
@@ -131,6 +132,137 @@ TEST(TumFolder, GroundTruthOnlyWhereItIsNearAndWanted) {
   ASSERT_TRUE(folder) << folder.reason();
   EXPECT_FALSE(folder->entries[0].world_from_camera);
   EXPECT_EQ(folder->frame_stride, 10);
+}
+
+// The same two frames in lists as the field writes them.
+struct Dialect {
+  const char* name;
+  const char* file;
+  const char* text;
+};
+class TumFolderDialect : public testing::TestWithParam<Dialect> {};
+
+TEST_P(TumFolderDialect, IsRead) {
+  const TemporaryFolder temporary;
+  const std::string root = temporary.path("walk");
+  std::filesystem::create_directories(root + "/my rgb");
+  std::filesystem::create_directories(root + "/depth");
+  for (const char* image : {"1", "2"}) {
+    cv::imwrite(root + "/my rgb/" + image + ".png", cv::Mat::zeros(480, 640, CV_8UC3));
+    cv::imwrite(root + "/depth/" + image + ".png", cv::Mat::ones(480, 640, CV_16UC1));
+  }
+  temporary.write("walk/rgb.txt", "1.5 my rgb/1.png\n2.5 my rgb/2.png\n");
+  temporary.write("walk/depth.txt", "1.5 depth/1.png\n2.5 depth/2.png\n");
+  temporary.write("walk/groundtruth.txt", "1.5 1 2 3 0 0 0.6 0.8\n2.5 4 5 6 0 0 0.6 0.8\n");
+  temporary.write(std::string("walk/") + GetParam().file, GetParam().text);
+  const auto folder = open_tum_folder(root);
+  ASSERT_TRUE(folder) << folder.reason();
+  ASSERT_EQ(folder->entries.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(folder->entries[k].stamp, from_seconds(1.5 + static_cast<double>(k)));
+    const auto image = folder->load(k);
+    EXPECT_TRUE(image) << image.reason();
+    ASSERT_TRUE(folder->entries[k].world_from_camera) << folder->remark;
+    const Pose& pose = *folder->entries[k].world_from_camera;
+    EXPECT_TRUE(pose.translation().isApprox(
+        Eigen::Vector3d(1, 2, 3) + 3.0 * static_cast<double>(k) * Eigen::Vector3d::Ones()));
+    EXPECT_NEAR(pose.linear()(0, 0), 0.28, 1e-9) << "turned about z by w = 0.8";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, TumFolderDialect,
+    testing::Values(
+        Dialect{"Plain", "rgb.txt", "1.5 my rgb/1.png\n2.5 my rgb/2.png\n"},
+        Dialect{"ByteOrderMark", "rgb.txt",
+                "\xef\xbb\xbf# stamps\n1.5 my rgb/1.png\n2.5 my rgb/2.png\n"},
+        Dialect{"ByteOrderMarkBeforeANumber", "depth.txt",
+                "\xef\xbb\xbf\x31.5 depth/1.png\n2.5 depth/2.png\n"},
+        Dialect{"HeaderRow", "rgb.txt", "timestamp filename\n1.5 my rgb/1.png\n2.5 my rgb/2.png\n"},
+        Dialect{"Commas", "rgb.txt", "1.5,my rgb/1.png\n2.5, my rgb/2.png\n"},
+        Dialect{"FurtherColumns", "depth.txt",
+                "1.5 depth/1.png 640 480\n2.5 depth/2.png 640 480\n"},
+        Dialect{"Nanoseconds", "rgb.txt", "1500000000.0 x\n1.5 my rgb/1.png\n2.5 my rgb/2.png\n"},
+        Dialect{"LineEndsOfWindows", "rgb.txt", "1.5 my rgb/1.png\r\n2.5 my rgb/2.png\r\n"},
+        Dialect{"DepthFirst", "associations.txt",
+                "1.5 depth/1.png 1.5 my rgb/1.png\n2.5 depth/2.png 2.5 my rgb/2.png\n"},
+        Dialect{"ABadEntry", "associations.txt",
+                "1.5 my rgb/1.png 1.5 depth/1.png\noops\n2.5 my rgb/2.png 2.5 depth/2.png\n"},
+        Dialect{"NaNRow", "groundtruth.txt",
+                "1.4 nan nan nan nan nan nan nan\n1.5 1 2 3 0 0 0.6 0.8\n2.5 4 5 6 0 0 0.6 0.8\n"},
+        Dialect{"TwelveColumns", "groundtruth.txt",
+                "t,x,y,z,qx,qy,qz,qw,vx,vy,vz,s\n1.5,1,2,3,0,0,0.6,0.8,0,0,0,1\n"
+                "2.5,4,5,6,0,0,0.6,0.8,0,0,0,1\n"},
+        Dialect{"RealPartFirst", "groundtruth.txt",
+                "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                "q_RS_y [], q_RS_z []\n1.5,1,2,3,0.8,0,0,0.6\n2.5,4,5,6,0.8,0,0,0.6\n"},
+        Dialect{"Semicolons", "groundtruth.txt", "1.5;1;2;3;0;0;0.6;0.8\n2.5;4;5;6;0;0;0.6;0.8\n"}),
+    [](const testing::TestParamInfo<Dialect>& dialect) { return std::string(dialect.param.name); });
+
+TEST(TumText, WholeNumbersTooLargeForSecondsAreOfASmallerUnit) {
+  const Stamp stamp = 1403636579763000000;
+  EXPECT_EQ(parse_stamp("1403636579.763"), stamp);
+  EXPECT_EQ(parse_stamp("1403636579763"), stamp);
+  EXPECT_EQ(parse_stamp("1403636579763000"), stamp);
+  EXPECT_EQ(parse_stamp("1403636579763000000"), stamp);
+  EXPECT_EQ(parse_stamp("17"), 17 * 1000000000LL) << "ICL-NUIM counts frames";
+  for (const char* text : {"", ".", "-1", "1e9", "nan", "1.2.3", "9999999999999999999",
+                           "99999999999999999999999", "14036365797"}) {
+    EXPECT_FALSE(parse_stamp(text)) << text;
+  }
+}
+
+TEST(TumFolder, SaysWhatItLeftOut) {
+  const TemporaryFolder temporary;
+  write_folder(temporary.path("walk"), 2, 0.001);
+  EXPECT_EQ(open_tum_folder(temporary.path("walk"))->remark, "");
+  temporary.write("walk/groundtruth.txt", "5 0 0 0 0 0 0 1\n6 0 0 nan 0 0 0 1\n7 0 0 0 0 0 0 1\n");
+  const auto folder = open_tum_folder(temporary.path("walk"));
+  ASSERT_TRUE(folder) << folder.reason();
+  EXPECT_NE(folder->remark.find("1 of 3 lines"), std::string::npos) << folder->remark;
+  EXPECT_NE(folder->remark.find("groundtruth.txt:2"), std::string::npos) << folder->remark;
+  EXPECT_NE(folder->remark.find("none of its 2 poses"), std::string::npos) << folder->remark;
+}
+
+TEST(TumFolder, KittisMatricesAreNamed) {
+  const TemporaryFolder temporary;
+  write_folder(temporary.path("walk"), 1, 0.001);
+  temporary.write("walk/groundtruth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const auto folder = open_tum_folder(temporary.path("walk"));
+  ASSERT_FALSE(folder);
+  EXPECT_NE(folder.reason().find("KITTI"), std::string::npos) << folder.reason();
+}
+
+TEST(TumFolder, ANegativeFocalLengthIsTurnedRoundAndTold) {
+  const TemporaryFolder temporary;
+  write_folder(temporary.path("walk"), 1, 0.001);
+  temporary.write("walk/camera.yaml",
+                  "{width: 24, height: 16, fx: 481.2, fy: -480, cx: 12, cy: 8, "
+                  "depth_units_per_metre: 1000}");
+  const auto folder = open_tum_folder(temporary.path("walk"));
+  ASSERT_TRUE(folder) << folder.reason();
+  EXPECT_EQ(folder->camera.fy, 480.0);
+  EXPECT_NE(folder->remark.find("fy"), std::string::npos) << folder->remark;
+}
+
+TEST(TumFolder, AJpegThatIsCutOffIsRefused) {
+  const TemporaryFolder temporary;
+  write_folder(temporary.path("walk"), 1, 0.001);
+  const auto folder = open_tum_folder(temporary.path("walk"));
+  ASSERT_TRUE(folder);
+  const std::string path = folder->entries[0].colour_path;
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", random_image(1, 0.001).bgr, jpeg);
+  const auto write = [&](std::size_t size) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(size));
+  };
+  write(jpeg.size());
+  EXPECT_TRUE(folder->load(std::size_t{0}));
+  write(jpeg.size() - 30);
+  const auto image = folder->load(std::size_t{0});
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.reason().find("cut off"), std::string::npos) << image.reason();
 }
 
 struct Fault {

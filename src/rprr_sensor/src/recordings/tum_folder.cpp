@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "recordings/tum_text.hpp"
@@ -28,6 +31,7 @@ struct CameraFile {
   double units_per_metre = kTumUnitsPerMetre;
   bool ground_truth = true;
   int frame_stride = 1;
+  std::string remark;
 };
 
 Result<CameraFile> read_camera_file(const std::string& path) {
@@ -49,6 +53,11 @@ Result<CameraFile> read_camera_file(const std::string& path) {
   } catch (const YAML::Exception& e) {
     return Error{path + ": " + e.what()};
   }
+  if (file.camera.fy < 0.0) {  // ICL-NUIM writes it so, for a y axis that points up
+    file.camera.fy = -file.camera.fy;
+    file.remark = path + ": fy is negative; taken as " + std::to_string(file.camera.fy) +
+                  ", with y down as images have it. True poses must be of that frame";
+  }
   if (!file.camera.valid()) {
     return Error{path + ": sizes must be 1 to " + std::to_string(kMaxImageSide) +
                  ", focal lengths positive, all numbers finite"};
@@ -60,11 +69,20 @@ Result<CameraFile> read_camera_file(const std::string& path) {
   return file;
 }
 
-Result<std::vector<AssociatedFiles>> associate_lists(const fs::path& folder, double window_s) {
-  const auto colour = read_file_list((folder / "rgb.txt").string());
+// What is told of a folder: each on a line of its own.
+void add_remark(std::string& remark, const std::string& text) {
+  if (text.empty()) return;
+  remark += (remark.empty() ? "" : "\n") + text;
+}
+
+Result<std::vector<AssociatedFiles>> associate_lists(const fs::path& folder, double window_s,
+                                                     const IsFile& is_listed, std::string& remark) {
+  const auto colour = read_file_list((folder / "rgb.txt").string(), is_listed);
   if (!colour) return Error{colour.reason()};
-  const auto depth = read_file_list((folder / "depth.txt").string());
+  const auto depth = read_file_list((folder / "depth.txt").string(), is_listed);
   if (!depth) return Error{depth.reason()};
+  add_remark(remark, colour->remark);
+  add_remark(remark, depth->remark);
   const auto stamps_of = [](const std::vector<StampedFile>& files) {
     std::vector<Stamp> stamps;
     for (const auto& file : files) stamps.push_back(file.stamp);
@@ -72,35 +90,80 @@ Result<std::vector<AssociatedFiles>> associate_lists(const fs::path& folder, dou
   };
   std::vector<AssociatedFiles> associations;
   for (const auto& [c, d] :
-       associate(stamps_of(*colour), stamps_of(*depth), from_seconds(window_s))) {
-    associations.push_back({(*colour)[c], (*depth)[d]});
+       associate(stamps_of(colour->entries), stamps_of(depth->entries), from_seconds(window_s))) {
+    associations.push_back({colour->entries[c], depth->entries[d]});
   }
   return associations;
 }
 
-Result<std::vector<AssociatedFiles>> find_entries(const fs::path& folder, double window_s) {
+Result<std::vector<AssociatedFiles>> find_entries(const fs::path& folder, double window_s,
+                                                  std::string& remark) {
+  const IsFile is_listed = [&](const std::string& name) { return is_file(folder / name); };
   const fs::path associations = folder / "associations.txt";
-  if (is_file(associations)) return read_associations(associations.string());
+  if (is_file(associations)) {
+    const auto list = read_associations(associations.string(), is_listed);
+    if (!list) return Error{list.reason()};
+    add_remark(remark, list->remark);
+    return list->entries;
+  }
   if (is_file(folder / "rgb.txt") && is_file(folder / "depth.txt")) {
-    return associate_lists(folder, window_s);
+    return associate_lists(folder, window_s, is_listed, remark);
   }
   return Error{folder.string() +
                ": has neither associations.txt nor rgb.txt and depth.txt; give a folder in the "
                "layout of the TUM RGB-D benchmark (unpack a .tgz first)"};
 }
 
+std::string seconds_text(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g s", to_seconds(duration));
+  return text;
+}
+
+// How far the first image is from any pose.
+Duration distance(const std::vector<Stamp>& poses, Stamp stamp) {
+  Duration least = std::numeric_limits<Duration>::max();
+  for (const Stamp pose : poses) least = std::min(least, std::abs(pose - stamp));
+  return least;
+}
+
 /// The error, if there is one.
-std::optional<Error> attach_poses(const std::string& path, double window_s,
-                                  std::vector<RgbdEntry>& entries) {
+std::optional<Error> attach_poses(const std::string& path, double window_s, TumFolder& folder) {
   const auto poses = read_poses(path);
   if (!poses) return Error{poses.reason()};
+  add_remark(folder.remark, poses->remark);
   std::vector<Stamp> stamps;
-  for (const auto& pose : *poses) stamps.push_back(pose.stamp);
-  for (auto& entry : entries) {
+  for (const auto& pose : poses->entries) stamps.push_back(pose.stamp);
+  std::size_t met = 0;
+  for (auto& entry : folder.entries) {
     const auto index = nearest_stamp(stamps, entry.stamp, from_seconds(window_s));
-    if (index) entry.world_from_camera = (*poses)[*index].world_from_camera;
+    if (!index) continue;
+    entry.world_from_camera = poses->entries[*index].world_from_camera;
+    ++met;
+  }
+  if (met == 0 && !stamps.empty()) {
+    add_remark(folder.remark,
+               path + ": none of its " + std::to_string(stamps.size()) + " poses is within " +
+                   seconds_text(from_seconds(window_s)) + " of an image; the first image is " +
+                   seconds_text(distance(stamps, folder.entries.front().stamp)) +
+                   " from the nearest: are they of another recording or another clock?");
   }
   return std::nullopt;
+}
+
+// A JPEG that is cut off ends without its end marker; libjpeg fills the rest with grey.
+bool is_cut_jpeg(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char begin[2] = {};
+  if (!file.read(begin, 2) || begin[0] != '\xff' || begin[1] != '\xd8') return false;
+  constexpr std::streamoff kTail = 4096;  // some writers pad the end
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  const std::streamoff from = std::max<std::streamoff>(2, size - kTail);
+  file.seekg(from);
+  std::string tail(static_cast<std::size_t>(size - from), '\0');
+  file.read(tail.data(), size - from);
+  return tail.find("\xff\xd9") == std::string::npos;
 }
 
 /// An empty image where it cannot be read for whatever reason.
@@ -120,6 +183,7 @@ std::string image_problem(const std::string& path, const cv::Mat& image, const C
   if (image.empty()) {
     return path + ": " + (is_file(path) ? "is not an image that can be read" : "does not exist");
   }
+  if (is_cut_jpeg(path)) return path + ": is cut off: the JPEG has no end";
   if (image.cols != camera.width || image.rows != camera.height) {
     return path + ": is " + size_text(image.cols, image.rows) + ", the camera of the folder " +
            size_text(camera.width, camera.height) + "; mend width and height in camera.yaml";
@@ -150,11 +214,12 @@ Result<TumFolder> open_tum_folder(const std::string& path, const TumFolderOption
     if (!read) return Error{read.reason()};
     camera = *read;
   }
-  const auto files = find_entries(root, options.association_window_s);
+  TumFolder folder;
+  add_remark(folder.remark, camera.remark);
+  const auto files = find_entries(root, options.association_window_s, folder.remark);
   if (!files) return Error{files.reason()};
   if (files->empty()) return Error{path + ": no colour image has a depth image that belongs to it"};
 
-  TumFolder folder;
   folder.path = path;
   folder.camera = camera.camera;
   folder.depth_unit = 1.0 / camera.units_per_metre;
@@ -168,7 +233,7 @@ Result<TumFolder> open_tum_folder(const std::string& path, const TumFolderOption
                    [](const RgbdEntry& a, const RgbdEntry& b) { return a.stamp < b.stamp; });
   const fs::path poses = root / "groundtruth.txt";
   if (camera.ground_truth && is_file(poses)) {
-    const auto error = attach_poses(poses.string(), options.ground_truth_window_s, folder.entries);
+    const auto error = attach_poses(poses.string(), options.ground_truth_window_s, folder);
     if (error) return *error;
   }
   return folder;
@@ -176,7 +241,7 @@ Result<TumFolder> open_tum_folder(const std::string& path, const TumFolderOption
 
 Result<RgbdImage> TumFolder::load(const RgbdEntry& entry) const {
   RgbdImage image;
-  image.bgr = read_image(entry.colour_path, cv::IMREAD_COLOR);
+  image.bgr = read_image(entry.colour_path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   const std::string colour_problem = image_problem(entry.colour_path, image.bgr, camera);
   if (!colour_problem.empty()) return Error{colour_problem};
   image.depth.counts = read_image(entry.depth_path, cv::IMREAD_UNCHANGED);

@@ -36,11 +36,15 @@ struct TumFolder {
   double depth_unit = 0.001;       // metres per count
   int frame_stride = 1;            // original frames between two entries
   std::vector<RgbdEntry> entries;  // ascending stamps
+  /// What a person should know about how the folder was understood: lines left out, poses that
+  /// meet no image, a focal length that was turned round. Empty: nothing.
+  std::string remark;
 
-  /// Reads the images of an entry. Errors name the file: not there, not an image, another size than
-  /// the camera's, depth that is not of 16 bits.
+  /// Reads the images of an entry, as the sensor gave them: an orientation noted by EXIF is not
+  /// applied, since depth would not turn with it. Errors name the file: not there, not an image or
+  /// cut off, another size than the camera's, depth that is not of 16 bits.
   Result<RgbdImage> load(const RgbdEntry& entry) const;
-  /// Likewise; an error where there is no such entry.
+  /// The same by number; an error where there is no such entry.
   Result<RgbdImage> load(std::size_t index) const;
 };
 
@@ -56,8 +60,9 @@ struct TumFolder {
 /// (lines `stamp tx ty tz qx qy qz qw`, camera to world) is used where it is there, unless
 /// camera.yaml says `ground_truth: false`; entries without a pose near enough have none.
 ///
-/// Errors name the file, the line and what to do. Lines that start with '#' and empty lines are
-/// skipped; any other line that cannot be read, and a number that is not finite, is an error.
+/// Lines that start with '#' and empty lines are skipped; other lines that cannot be read are left
+/// out and told in the remark. Errors name the file, the line and what to do: no line of a list
+/// can be read, or camera.yaml is not usable.
 Result<TumFolder> open_tum_folder(const std::string& path, const TumFolderOptions& options = {});
 
 /// What the ROS community and the TUM benchmark use for a Kinect whose sequence or camera name
