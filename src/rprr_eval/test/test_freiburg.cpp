@@ -97,12 +97,12 @@ TEST(Freiburg, BagOfTheBenchmarksShapeIsPlayedAsTwoRobots) {
     EXPECT_EQ(own.header.frame_id, "eyebug_b_rgb_optical_frame");
     EXPECT_EQ(own.encoding, "32FC1");
     ASSERT_TRUE(topics.rebuilt(stamp));
-    const auto truth = depth_from_image(own, kUnit);
+    const auto truth = depth_from_image(own, {0.001, kUnit});
     ASSERT_TRUE(truth) << truth.reason();
     EXPECT_EQ(cv::norm(truth->counts, tum_frame(kWalk[k + 1]).image.depth.counts, cv::NORM_INF), 0)
         << "counts lost on the way through the bag";
     EXPECT_EQ(topics.depth.at(stamp)->encoding, "32FC1") << "16UC1 would round";
-    const auto rebuilt = depth_from_image(*topics.depth.at(stamp), kUnit);
+    const auto rebuilt = depth_from_image(*topics.depth.at(stamp), {0.001, kUnit});
     ASSERT_TRUE(rebuilt) << rebuilt.reason();
     const sensor_msgs::Image& provenance = *topics.provenance.at(stamp);
     int received = 0;

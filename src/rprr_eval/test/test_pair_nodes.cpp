@@ -25,7 +25,7 @@ std::uint32_t bytes_of(const boost::shared_ptr<T>& message) {
 }
 
 cv::Mat counts_of(const sensor_msgs::Image& image) {
-  const auto frame = depth_from_image(image, 0.001);
+  const auto frame = depth_from_image(image, {});
   EXPECT_TRUE(frame) << frame.reason();
   return frame ? frame->counts.clone() : cv::Mat();
 }

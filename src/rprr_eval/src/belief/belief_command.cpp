@@ -79,7 +79,7 @@ int run(const BeliefArguments& arguments) {
   add_rows(
       table, json, "fitted anew", [&](const PoseEvidence& e) { return model.log_odds(e); }, others);
   std::cerr << "on the scenes that were held out:\n" << table.text();
-  return 0;
+  return json.finish();
 }
 
 }  // namespace

@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/codec/codec_survey.hpp"
 #include "rprr_sensor/recordings/tum_folder.hpp"
@@ -38,7 +38,7 @@ struct Images {
 Result<Images> read_images(const std::string& path) {
   Images images;
   if (fs::exists(path + "/associations.txt") || fs::exists(path + "/depth.txt")) {
-    const Result<TumFolder> folder = open_tum_folder(path);
+    const Result<TumFolder> folder = open_folder(path);
     if (!folder) return Error{folder.reason()};
     for (const RgbdEntry& entry : folder->entries) {
       const Result<RgbdImage> image = folder->load(entry);
@@ -97,10 +97,10 @@ std::vector<CodecFigures> survey(const std::string& name, const Images& images,
 }
 
 bool write_markdown(const std::string& path, const std::vector<CodecFigures>& figures) {
-  std::ofstream file(path);
-  file << codec_tables(figures);
-  if (!file.flush()) std::cerr << "cannot write " << path << "\n";
-  return file.good();
+  ResultFile file(path);
+  file.stream() << codec_tables(figures);
+  if (!file.finish()) std::cerr << file.problem() << "\n";
+  return file.problem().empty();
 }
 
 int run_codec(const CodecArguments& arguments) {
@@ -127,7 +127,7 @@ int run_codec(const CodecArguments& arguments) {
   });
   if (!lossless) std::cerr << "a depth codec did not give back what it was given\n";
   const bool written = arguments.markdown.empty() || write_markdown(arguments.markdown, all);
-  return lossless && written ? 0 : 1;
+  return json.finish(lossless && written ? 0 : 1);
 }
 
 std::string known_codecs() {

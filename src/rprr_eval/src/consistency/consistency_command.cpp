@@ -138,7 +138,7 @@ int run(const ConsistencyArguments& arguments) {
             << "consistent: 95% bounds of the mean if the covariances are right; within 95%: share "
                "of errors under the chi-square quantile;\nscale: what the covariances would have "
                "to be multiplied by; mean and RMS: of each component of log(M_est M_true^-1)\n";
-  return 0;
+  return json.finish();
 }
 
 void add_options(CLI::App* command, ConsistencyArguments& arguments) {

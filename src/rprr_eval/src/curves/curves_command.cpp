@@ -10,6 +10,7 @@
 #include <set>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/curves/curve_comparison.hpp"
 
@@ -68,7 +69,7 @@ class CurvesRun {
     if (!json_.good() || (pairs_json_ && !pairs_json_->good())) return "no output";
     std::vector<std::vector<PairCurves>> folders;
     for (const std::string& path : arguments_.folders) {
-      const Result<TumFolder> folder = open_tum_folder(path);
+      const Result<TumFolder> folder = open_folder(path);
       if (!folder) return folder.reason();
       const std::string name = std::filesystem::path(path + "/").parent_path().filename().string();
       const std::string wrong = measure(*folder, name, folders.emplace_back());
@@ -83,7 +84,7 @@ class CurvesRun {
       for (const auto& pairs : folders) report(pairs.front().folder, pairs);
     }
     report_together(folders);
-    return write_markdown() ? std::string() : "cannot write " + arguments_.markdown;
+    return finish();
   }
 
  private:
@@ -178,11 +179,13 @@ class CurvesRun {
     std::cerr << "\n" << name << ": " << comparison_text(comparison) << "\n";
   }
 
-  bool write_markdown() const {
-    if (arguments_.markdown.empty()) return true;
-    std::ofstream file(arguments_.markdown);
-    file << comparison_markdown(comparisons_);
-    return file.flush().good();
+  // Puts all files in their places. Empty, or what went wrong.
+  std::string finish() {
+    if (json_.finish() != 0 || (pairs_json_ && pairs_json_->finish() != 0)) return "no output";
+    ResultFile markdown(arguments_.markdown);
+    markdown.stream() << comparison_markdown(comparisons_);
+    markdown.finish();
+    return markdown.problem();
   }
 
   CurvesArguments arguments_;

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "rprr_eval/measure/metrics.hpp"
 #include "rprr_geometry/block_mask.hpp"
 #include "rprr_geometry/relative_pose.hpp"
@@ -109,7 +110,7 @@ std::string run_pair(const TumFolder& folder, std::size_t k, const DecisionArgum
 
 int run(const DecisionArguments& arguments) {
   cv::setNumThreads(1);  // figures are per core
-  const Result<TumFolder> folder = open_tum_folder(arguments.folder);
+  const Result<TumFolder> folder = open_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
   Decider decider(arguments.options);
   Tally t;

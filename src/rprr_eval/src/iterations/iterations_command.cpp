@@ -5,6 +5,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/exchange/exchange_registration.hpp"
 #include "rprr_eval/iterations/exchange_survey.hpp"
@@ -79,7 +80,7 @@ int run(const IterationsArguments& arguments) {
   Result<Profile> profile = load_profile(arguments.profile);
   if (!profile) return std::cerr << profile.reason() << "\n", 1;
   profile->use_previews = false;  // which do not iterate over the radio
-  const Result<TumFolder> folder = open_tum_folder(arguments.folder);
+  const Result<TumFolder> folder = open_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
   const Distances distances = distances_of(*folder, arguments.distances);
   for (const auto& [frames, why] : distances.refused) {
@@ -103,7 +104,7 @@ int run(const IterationsArguments& arguments) {
             << "exchanges, both ways\n"
             << table.text() << "\n"
             << bars(all);
-  return 0;
+  return json.finish();
 }
 
 }  // namespace

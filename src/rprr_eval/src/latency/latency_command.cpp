@@ -5,6 +5,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/exchange/exchange_registration.hpp"
 #include "rprr_eval/iterations/exchange_survey.hpp"
@@ -42,7 +43,7 @@ Result<std::vector<Protocol>> protocols() {
 
 Result<std::vector<FramePair>> pairs_of(const LatencyArguments& arguments) {
   if (arguments.folder.empty()) return synthetic_pairs(static_cast<int>(arguments.pairs), 1);
-  const Result<TumFolder> folder = open_tum_folder(arguments.folder);
+  const Result<TumFolder> folder = open_folder(arguments.folder);
   if (!folder) return Error{folder.reason()};
   FrameSource source(*folder);
   Result<std::vector<FramePair>> pairs = folder_pairs(source, arguments.step, arguments.pairs);
@@ -83,7 +84,7 @@ int run(const LatencyArguments& arguments) {
                "processor "
                "time of both robots on this machine comes on top\n"
             << table.text();
-  return 0;
+  return json.finish();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
+#include "report/json_output.hpp"
 #include "rprr_eval/pairs/pair_runner.hpp"
 #include "rprr_eval/pairs/pair_summary.hpp"
 
@@ -38,22 +39,30 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const PairsArguments& 
   return pairs;
 }
 
+bool write_picture(const std::string& folder, std::size_t a, std::size_t b,
+                   const PairResult& result) {
+  const std::string path = folder + "/" + std::to_string(a) + "_" + std::to_string(b) + ".png";
+  bool written = false;
+  try {
+    written = cv::imwrite(path, result.rebuilt.bgr);
+  } catch (const cv::Exception&) {  // of what it cannot encode
+  }
+  if (!written) std::cerr << "\n" << path << ": cannot be written\n";
+  return written;
+}
+
 int run_pairs(const PairsArguments& arguments) {
   cv::setNumThreads(1);  // figures are per core
   Result<Profile> profile = load_profile(arguments.profile);
   if (!profile) return std::cerr << profile.reason() << "\n", 1;
   if (arguments.quality >= 0) profile->codec.colour_quality = arguments.quality;
-  const Result<TumFolder> folder = open_tum_folder(arguments.folder);
+  const Result<TumFolder> folder = open_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
   Result<PairRunner> runner = PairRunner::create(*profile);
   if (!runner) return std::cerr << runner.reason() << "\n", 1;
 
-  std::ofstream file;
-  if (!arguments.json.empty()) {
-    file.open(arguments.json);
-    if (!file) return std::cerr << "cannot write " << arguments.json << "\n", 1;
-  }
-  std::ostream& json = arguments.json.empty() ? std::cout : file;
+  JsonOutput json(arguments.json);
+  if (!json.good()) return 1;
   const auto pairs = pairs_of(arguments, folder->entries.size());
   if (pairs.empty()) {
     std::cerr << arguments.folder << " has " << folder->entries.size()
@@ -61,15 +70,16 @@ int run_pairs(const PairsArguments& arguments) {
     return 1;
   }
   std::vector<PairResult> results;
+  std::size_t left_out = 0;
   for (const auto& [a, b] : pairs) {
     Result<PairResult> result = runner->run(*folder, a, b);
-    if (!result)
-      return std::cerr << "pair " << a << ", " << b << ": " << result.reason() << "\n", 1;
-    json << to_json(*result) << std::endl;
-    if (!arguments.pictures.empty()) {
-      cv::imwrite(arguments.pictures + "/" + std::to_string(a) + "_" + std::to_string(b) + ".png",
-                  result->rebuilt.bgr);
+    if (!result) {
+      std::cerr << "\npair " << a << ", " << b << " left out: " << result.reason() << "\n";
+      ++left_out;
+      continue;
     }
+    json.write(to_json(*result));
+    if (!arguments.pictures.empty() && !write_picture(arguments.pictures, a, b, *result)) return 1;
     results.push_back(std::move(*result));
     results.back().rebuilt.bgr.release();  // a long run must not keep every picture
     results.back().rebuilt.depth.counts.release();
@@ -78,8 +88,12 @@ int run_pairs(const PairsArguments& arguments) {
     results.back().exchange.at_reference.clear();
     std::cerr << "\rpair " << results.size() << " of " << pairs.size() << std::flush;
   }
-  std::cerr << "\n" << summary_table(results, *profile);
-  return 0;
+  std::cerr << "\n";
+  if (!results.empty()) std::cerr << summary_table(results, *profile);
+  if (left_out > 0) {
+    std::cerr << left_out << " of " << pairs.size() << " pairs left out, for the reasons above\n";
+  }
+  return json.finish(left_out > 0 ? 1 : 0);
 }
 
 }  // namespace

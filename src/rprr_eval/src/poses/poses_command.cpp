@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/measure/binomial.hpp"
 #include "rprr_eval/measure/median.hpp"
@@ -179,7 +180,7 @@ int run(const PosesArguments& arguments) {
   const Result<NamedRegistrations> made = make_methods(arguments.methods, notes);
   if (!made) return std::cerr << made.reason() << "\n", 1;
   for (const std::string& note : notes) std::cerr << note << "\n";
-  const Result<TumFolder> folder = open_tum_folder(arguments.folder);
+  const Result<TumFolder> folder = open_folder(arguments.folder);
   if (!folder) return std::cerr << folder.reason() << "\n", 1;
   JsonOutput json(arguments.json);
   std::optional<JsonOutput> pairs_json;
@@ -200,7 +201,7 @@ int run(const PosesArguments& arguments) {
     std::cerr << method->name() << " done\n";
   }
   report(all, json);
-  return 0;
+  return json.finish();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/measure/median.hpp"
 #include "rprr_eval/measure/metrics.hpp"
@@ -101,7 +102,7 @@ int run(const PreviewArguments& arguments) {
   JsonOutput json(arguments.json);
   if (!json.good()) return 1;
   for (const std::string& path : arguments.folders) {
-    const Result<TumFolder> folder = open_tum_folder(path);
+    const Result<TumFolder> folder = open_folder(path);
     if (!folder) return std::cerr << folder.reason() << "\n", 1;
     Figures figures;
     for (const RgbdEntry& entry : folder->entries) {
@@ -113,7 +114,7 @@ int run(const PreviewArguments& arguments) {
     const std::string name = fs::path(path + "/").parent_path().filename().string();
     json.write(line_of(name, arguments, figures));
   }
-  return 0;
+  return json.finish();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "commands.hpp"
+#include "open_folder.hpp"
 #include "report/json_output.hpp"
 #include "rprr_eval/measure/frame_source.hpp"
 #include "rprr_eval/report/text_table.hpp"
@@ -27,7 +28,7 @@ struct TimingArguments {
 Result<std::vector<FramePair>> pairs_of(const std::string& folder_name,
                                         const TimingArguments& arguments) {
   if (folder_name.empty()) return synthetic_pairs(static_cast<int>(arguments.pairs), 1);
-  const Result<TumFolder> folder = open_tum_folder(folder_name);
+  const Result<TumFolder> folder = open_folder(folder_name);
   if (!folder) return Error{folder.reason()};
   FrameSource source(*folder);
   Result<std::vector<FramePair>> pairs = folder_pairs(source, arguments.step, arguments.pairs);
@@ -99,7 +100,7 @@ int run(const TimingArguments& arguments) {
             << fixed(arguments.warm.degrees, 1)
             << " deg off the accepted pose, peers from the same; cold: from nothing, peers from "
                "the identity\n";
-  return 0;
+  return json.finish();
 }
 
 void add_options(CLI::App* command, TimingArguments& arguments) {
