@@ -75,6 +75,7 @@ int convert(const Options& options) {
   folder_options.association_window_s = options.window;
   const auto folder = rprr::open_tum_folder(options.folder, folder_options);
   if (!folder) return rprr::fail(folder.reason());
+  if (!folder->remark.empty()) std::cerr << "note: " << folder->remark << "\n";
   const auto entries = chosen_entries(*folder, options);
   if (entries.empty()) return rprr::fail("--start lies behind the last entry");
   const BagShape shape = options.shape == "tum" ? BagShape::tum : BagShape::rprr;
@@ -85,16 +86,26 @@ int convert(const Options& options) {
   }
   auto bag = rprr::BagWriter::create(options.bag, options.compression);
   if (!bag) return rprr::fail(bag.reason());
+  std::size_t left_out = 0;
   for (std::size_t k = 0; k < entries.size(); ++k) {
     auto image = folder->load(entries[k]);
-    if (!image) return rprr::fail(image.reason());
+    if (!image) {
+      std::cerr << "\nleft out: " << image.reason() << "\n";
+      ++left_out;
+      continue;
+    }
     const rprr::RecordedFrame frame{entries[k].stamp, *image, entries[k].world_from_camera,
                                     entries[k].depth_stamp};
     const auto written = bag->add(frame, folder->camera, options.robot, shape, encoding);
     if (!written) return rprr::fail(written.reason());
     rprr::show_progress(k + 1, entries.size());
   }
-  return 0;
+  if (left_out == entries.size()) return rprr::fail("no entry could be read: no bag is written");
+  const auto finished = bag->finish();
+  if (!finished) return rprr::fail(finished.reason());
+  if (left_out == 0) return 0;
+  return rprr::fail(std::to_string(left_out) + " of " + std::to_string(entries.size()) +
+                    " entries left out, for the reasons above; the others are in the bag");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ int make(const Options& options) {
     }
     rprr::show_progress(k + 1, walk.size());
   }
-  return 0;
+  const auto finished = bag->finish();
+  return finished ? 0 : rprr::fail(finished.reason());
 }
 
 }  // namespace

@@ -27,14 +27,15 @@ enum class BagShape {
   tum    // /camera/..., 32FC1, slash-prefixed frames, poses on /tf: as the TUM benchmark's bags
 };
 
-/// Writes what RGB-D cameras saw into one bag.
+/// Writes what RGB-D cameras saw into one bag, which is whole or not there: it is written beside
+/// its place, as PATH.part, and finish() renames it. Without finish() the part is removed.
 class BagWriter {
  public:
-  /// `compression` is none, bz2 or lz4. An existing file is overwritten.
+  /// `compression` is none, bz2 or lz4. An existing file is replaced at the end.
   static Result<BagWriter> create(const std::string& path, const std::string& compression);
   BagWriter(BagWriter&&) noexcept;
   BagWriter& operator=(BagWriter&&) noexcept;
-  ~BagWriter();  // closes the bag
+  ~BagWriter();
 
   /// Writes a frame, its camera_info and its pose. `robot` names topics and frames of the rprr
   /// shape, where colour and depth have one stamp; in the tum shape depth keeps its own. Returns
@@ -43,9 +44,14 @@ class BagWriter {
   Result<int> add(const RecordedFrame& frame, const Camera& camera, const std::string& robot,
                   BagShape shape, DepthEncoding encoding);
 
- private:
-  explicit BagWriter(std::unique_ptr<rosbag::Bag> bag);
+  /// Closes the bag and puts it in its place; nothing can be added any more. The path, or why it
+  /// is not there.
+  Result<std::string> finish();
 
+ private:
+  BagWriter(const std::string& path, std::unique_ptr<rosbag::Bag> bag);
+
+  std::string path_;
   std::unique_ptr<rosbag::Bag> bag_;
 };
 

@@ -8,8 +8,12 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <exception>
+#include <filesystem>
 #include <utility>
 
+#include "recordings/close_bag.hpp"
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
@@ -30,6 +34,10 @@ geometry_msgs::TransformStamped transform(const std_msgs::Header& header, const 
   message.transform.rotation.z = q.z();
   message.transform.rotation.w = q.w();
   return message;
+}
+
+std::string part_of(const std::string& path) {
+  return path + ".part";
 }
 
 Pose offset(double y) {
@@ -75,15 +83,29 @@ Result<sensor_msgs::Image> depth_message(const std_msgs::Header& header, const D
 
 }  // namespace
 
-BagWriter::BagWriter(std::unique_ptr<rosbag::Bag> bag) : bag_(std::move(bag)) {
+BagWriter::BagWriter(const std::string& path, std::unique_ptr<rosbag::Bag> bag)
+    : path_(path), bag_(std::move(bag)) {
 }
 BagWriter::BagWriter(BagWriter&&) noexcept = default;
 BagWriter& BagWriter::operator=(BagWriter&&) noexcept = default;
-BagWriter::~BagWriter() = default;
+
+BagWriter::~BagWriter() {
+  if (!bag_) return;
+  const std::string part = part_of(path_);
+  close_bag(bag_, part, part);
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+}
+
+Result<std::string> BagWriter::finish() {
+  const std::string problem = close_bag(bag_, part_of(path_), path_);
+  if (!problem.empty()) return Error{problem};
+  return path_;
+}
 
 Result<BagWriter> BagWriter::create(const std::string& path, const std::string& compression) {
   try {
-    auto bag = std::make_unique<rosbag::Bag>(path, rosbag::bagmode::Write);
+    auto bag = std::make_unique<rosbag::Bag>(part_of(path), rosbag::bagmode::Write);
     if (compression == "bz2") {
       bag->setCompression(rosbag::compression::BZ2);
     } else if (compression == "lz4") {
@@ -91,8 +113,8 @@ Result<BagWriter> BagWriter::create(const std::string& path, const std::string& 
     } else if (compression != "none") {
       return Error{"compression '" + compression + "' is none of none, bz2 and lz4"};
     }
-    return BagWriter(std::move(bag));
-  } catch (const rosbag::BagException& error) {
+    return BagWriter(path, std::move(bag));
+  } catch (const std::exception& error) {
     return Error{path + ": cannot be written: " + error.what()};
   }
 }
@@ -134,8 +156,8 @@ Result<int> BagWriter::add(const RecordedFrame& frame, const Camera& camera,
       ++messages;
     }
     return messages;
-  } catch (const rosbag::BagException& error) {
-    return Error{std::string("the bag cannot be written (disk full?): ") + error.what()};
+  } catch (const std::exception& error) {
+    return Error{path_ + ": cannot be written: " + error.what() + "; is the disk full?"};
   }
 }
 

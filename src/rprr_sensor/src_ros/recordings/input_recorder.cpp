@@ -7,10 +7,12 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <boost/function.hpp>
+#include <exception>
 #include <filesystem>
 #include <type_traits>
 #include <utility>
 
+#include "recordings/close_bag.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 
 namespace rprr {
@@ -43,7 +45,7 @@ Result<std::unique_ptr<InputRecorder>> InputRecorder::create(const std::string& 
     if (compression == "bz2") bag->setCompression(rosbag::compression::BZ2);
     if (compression == "lz4") bag->setCompression(rosbag::compression::LZ4);
     return std::unique_ptr<InputRecorder>(new InputRecorder(path, limits, std::move(bag)));
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::exception& error) {
     return Error{path + ": cannot be written: " + error.what()};
   }
 }
@@ -80,10 +82,15 @@ void InputRecorder::write(std::size_t topic, const ros::MessageEvent<const Messa
     done_ = true;
     return;
   }
+  if (event.getReceiptTime() < ros::TIME_MIN) {
+    return fail(
+        "there is no time to record by: /use_sim_time is true but nothing comes on /clock. "
+        "Play with --clock, or set the parameter to false");
+  }
   try {
     bag_->write(counts_[topic].topic, event);
-  } catch (const rosbag::BagException& error) {
-    return fail(error.what());
+  } catch (const std::exception& error) {
+    return fail(path_ + ".active: " + error.what() + "; is the disk full?");
   }
   TopicCount& count = counts_[topic];
   if constexpr (!std::is_same_v<Message, tf2_msgs::TFMessage>) {
@@ -98,7 +105,7 @@ void InputRecorder::write(std::size_t topic, const ros::MessageEvent<const Messa
 }
 
 void InputRecorder::fail(const std::string& reason) {
-  fault_ = path_ + ".active: " + reason + "; is the disk full?";
+  fault_ = reason;
   done_ = true;
 }
 
@@ -114,15 +121,11 @@ Result<std::string> InputRecorder::finish() {
   finished_ = true;
   done_ = true;
   subscribers_.clear();
-  try {
-    bag_->close();
-  } catch (const rosbag::BagException& error) {
-    if (fault_.empty()) fail(error.what());
-  }
+  const std::string part = path_ + ".active";
+  // What was recorded until a fault keeps its preliminary name.
+  const std::string problem = close_bag(bag_, part, fault_.empty() ? path_ : part);
   if (!fault_.empty()) return Error{fault_};
-  std::error_code failed;
-  std::filesystem::rename(path_ + ".active", path_, failed);
-  if (failed) return Error{path_ + ": " + failed.message()};
+  if (!problem.empty()) return Error{problem};
   return path_;
 }
 
