@@ -27,6 +27,7 @@
 #include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 #include "rprr_ros/live_options.hpp"
 #include "rprr_ros/parameters.hpp"
 #include "rprr_ros/steady_now.hpp"
@@ -80,12 +81,8 @@ class EncoderNodelet : public nodelet::Nodelet {
     state_ = nh.advertise<rprr_msgs::RadioState>(prefix + "radio", 1, true);
     worker_ = std::make_unique<Worker>(2);  // jobs only look at the queue, so one may be dropped
     timer_ = nh.createWallTimer(tick(), &EncoderNodelet::on_timer, this);
-    live_ = std::make_unique<LiveOptions>(
-        private_nh, table_of(options_),
-        [this](const std::string& reason) {
-          health_->warn("reconfiguration", "refused: " + reason);
-        },
-        [this] { return on_change(); });
+    live_ = std::make_unique<LiveOptions>(private_nh, table_of(options_), *health_,
+                                          [this] { return on_change(); });
     subscribe(nh, prefix);
     if (options_.link_recovery) {
       links_ = RadioLinks::look_after({receipts_.getTopic()});
@@ -98,9 +95,14 @@ class EncoderNodelet : public nodelet::Nodelet {
 
   void subscribe(ros::NodeHandle& nh, const std::string& prefix) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    inputs_ = std::make_unique<InputReport>(nh, *health_);
     receipts_ = nh.subscribe("/station/receipts", 20, &EncoderNodelet::on_receipt, this, hints);
+    inputs_->expect(receipts_.getTopic(), InputKind::kStream, "receipts of the station",
+                    "start the station, with the same master, and look whether it is in reach");
     subscribers_.push_back(
         nh.subscribe(prefix + "outgoing", 8, &EncoderNodelet::on_outgoing, this));
+    inputs_->expect(subscribers_.back().getTopic(), InputKind::kSometimes, "frames to encode",
+                    "start the nodelet rprr_redundancy/Redundancy of this robot");
     // What this robot's other nodelets put on the radio.
     count<rprr_msgs::BlockPreview>(nh, prefix + "preview");
     count<rprr_msgs::SamplePoints>(nh, prefix + "samples");
@@ -307,6 +309,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   ros::Subscriber receipts_;
   std::vector<ros::Subscriber> subscribers_;
   std::shared_ptr<RadioLinks> links_;
+  std::unique_ptr<InputReport> inputs_;
   std::unique_ptr<LiveOptions> live_;
   ros::WallTimer timer_;
   std::unique_ptr<Worker> worker_;

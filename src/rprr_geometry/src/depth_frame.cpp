@@ -26,12 +26,14 @@ DepthFrame quantise(const cv::Mat& metres, double unit) {
 
 }  // namespace
 
-Result<DepthFrame> depth_frame_from_image(const cv::Mat& image, double unit_for_float) {
+Result<DepthFrame> depth_frame_from_image(const cv::Mat& image, const DepthUnits& units) {
   if (image.empty()) return Error{"depth image is empty"};
-  if (image.type() == CV_16UC1) return DepthFrame{image, 0.001};
+  if (!(units.of_counts > 0.0) || !(units.for_metres > 0.0)) {
+    return Error{"depth unit is not positive"};
+  }
+  if (image.type() == CV_16UC1) return DepthFrame{image, units.of_counts};
   if (image.type() != CV_32FC1) return Error{"depth image is neither 16UC1 nor 32FC1"};
-  if (!(unit_for_float > 0.0)) return Error{"depth unit is not positive"};
-  return quantise(image, unit_for_float);
+  return quantise(image, units.for_metres);
 }
 
 cv::Mat to_float_image(const DepthFrame& frame) {

@@ -10,7 +10,7 @@ namespace {
 
 TEST(DepthFrame, MillimetresAreTakenWithoutACopy) {
   const cv::Mat image(4, 6, CV_16UC1, cv::Scalar(1234));
-  const Result<DepthFrame> frame = depth_frame_from_image(image, 0.0002);
+  const Result<DepthFrame> frame = depth_frame_from_image(image, {0.001, 0.0002});
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->counts.data, image.data);
   EXPECT_EQ(frame->unit, 0.001);
@@ -22,7 +22,7 @@ TEST(DepthFrame, FloatsThatAreMultiplesOfTheUnitComeBackExactly) {
   for (int i = 0; i < image.cols; ++i) {
     image.at<float>(0, i) = static_cast<float>((i + 1) * 0.0002);
   }
-  const Result<DepthFrame> frame = depth_frame_from_image(image, 0.0002);
+  const Result<DepthFrame> frame = depth_frame_from_image(image, {0.001, 0.0002});
   ASSERT_TRUE(frame);
   for (int i = 0; i < image.cols; ++i) {
     ASSERT_EQ(frame->counts.at<std::uint16_t>(0, i), i + 1);
@@ -40,16 +40,16 @@ TEST(DepthFrame, WhatIsNoDepthBecomesInvalid) {
   image.at<float>(0, 2) = -1.0f;
   image.at<float>(0, 3) = 1e9f;
   image.at<float>(0, 4) = 0.0f;
-  const Result<DepthFrame> frame = depth_frame_from_image(image, 0.001);
+  const Result<DepthFrame> frame = depth_frame_from_image(image, {});
   ASSERT_TRUE(frame);
   for (int i = 0; i < image.cols; ++i) EXPECT_EQ(frame->counts.at<std::uint16_t>(0, i), 0) << i;
   EXPECT_TRUE(std::isnan(to_float_image(*frame).at<float>(0, 0)));
 }
 
 TEST(DepthFrame, OtherImagesAreRefused) {
-  EXPECT_FALSE(depth_frame_from_image(cv::Mat(), 0.001));
-  EXPECT_FALSE(depth_frame_from_image(cv::Mat(2, 2, CV_8UC3), 0.001));
-  EXPECT_FALSE(depth_frame_from_image(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1)), 0.0));
+  EXPECT_FALSE(depth_frame_from_image(cv::Mat(), {}));
+  EXPECT_FALSE(depth_frame_from_image(cv::Mat(2, 2, CV_8UC3), {}));
+  EXPECT_FALSE(depth_frame_from_image(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1)), {0.001, 0.0}));
 }
 
 TEST(DepthFrame, MillimetreImageIsTheFrameItselfOrARoundedCopy) {

@@ -58,6 +58,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
     : nh_(nh),
       options_(options),
       health_(nh, private_nh, "exchange", options.robot),
+      inputs_(nh, health_),
       observer_(std::move(observer)),
       stage_(std::move(stage)),
       clocks_(options.robot, health_),
@@ -103,6 +104,8 @@ void ExchangeNode::subscribe(const std::string& peer) {
     listen<rprr_msgs::PoseUpdate>(peer, "update");
   }
   listen<rprr_msgs::RelativePose>(peer, "relative_pose");
+  inputs_.expect(subscribers_.back().getTopic(), InputKind::kSometimes, "robot '" + peer + "'",
+                 "start its nodes, with the same master, and look whether it is in reach");
 }
 
 template <typename Message>

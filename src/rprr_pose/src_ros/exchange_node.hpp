@@ -21,6 +21,7 @@
 #include "rprr_pose/pose_options.hpp"
 #include "rprr_radio_ros/radio_links.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 #include "rprr_ros/rgbd_subscriber.hpp"
 #include "rprr_ros/sender_watch.hpp"
 #include "rprr_ros/worker.hpp"
@@ -60,6 +61,7 @@ class ExchangeNode {
   ros::NodeHandle nh_;
   const ExchangeNodeOptions options_;
   Health health_;
+  InputReport inputs_;
   Observer observer_;
   std::unique_ptr<ExchangeStage> stage_;  // worker thread
   ClockComparison clocks_;                // worker thread

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "rprr_pose_ros/pose_seal.hpp"
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "textured_views.hpp"

@@ -15,6 +15,7 @@
 #include "rprr_redundancy/redundancy.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 #include "rprr_ros/parameters.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_ros/worker.hpp"
@@ -47,6 +48,7 @@ class RedundancyNodelet : public nodelet::Nodelet {
     const std::string wrong = read_options(private_nh, wiring, options);
     robot_ = wiring.robot;
     health_ = std::make_unique<Health>(nh, private_nh, "redundancy", robot_);
+    inputs_ = std::make_unique<InputReport>(nh, *health_);
     if (!wrong.empty()) return health_->refuse_parameters(wrong);
     stage_ = std::make_unique<Redundancy>(robot_, options);
     pictures_ = std::make_unique<Pictures>(nh, robot_);
@@ -56,6 +58,8 @@ class RedundancyNodelet : public nodelet::Nodelet {
     worker_ = std::make_unique<Worker>(kQueue);
     subscribers_.push_back(
         nh.subscribe(prefix + "exchange", 16, &RedundancyNodelet::on_decision, this));
+    inputs_->expect(subscribers_.back().getTopic(), InputKind::kSometimes, "exchanges",
+                    "start the nodelet rprr_pose/Exchange of this robot");
     std::vector<std::string> radio_topics;
     for (const std::string& peer : wiring.peers) radio_topics.push_back(subscribe(nh, peer));
     if (wiring.link_recovery) links_ = RadioLinks::look_after(radio_topics);
@@ -79,6 +83,8 @@ class RedundancyNodelet : public nodelet::Nodelet {
         [this, peer](const rprr_msgs::BlockMaskConstPtr& message) { on_prediction(peer, message); };
     subscribers_.push_back(nh.subscribe<rprr_msgs::BlockMask>(
         "/" + peer + "/rprr/prediction", 8, callback, nullptr, ros::TransportHints().tcpNoDelay()));
+    inputs_->expect(subscribers_.back().getTopic(), InputKind::kSometimes, "robot '" + peer + "'",
+                    "start its nodes, with the same master, and look whether it is in reach");
     return subscribers_.back().getTopic();
   }
 
@@ -153,6 +159,7 @@ class RedundancyNodelet : public nodelet::Nodelet {
 
   std::string robot_;
   std::unique_ptr<Health> health_;
+  std::unique_ptr<InputReport> inputs_;
   std::shared_ptr<RadioLinks> links_;   // null: links are not recovered
   std::unique_ptr<Redundancy> stage_;   // the worker's
   std::unique_ptr<Pictures> pictures_;  // the worker's

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_ros/conversions.hpp"
-#include "rprr_wire/camera_wire.hpp"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
@@ -42,33 +41,7 @@ std::string rebuilt_frame(const std::string& robot) {
   return robot + "_rprr_optical_frame";
 }
 
-Result<Camera> camera_from_info(const sensor_msgs::CameraInfo& info) {
-  Camera camera;
-  camera.width = static_cast<int>(info.width);
-  camera.height = static_cast<int>(info.height);
-  const bool rectified = info.P[0] != 0.0;
-  camera.fx = rectified ? info.P[0] : info.K[0];
-  camera.fy = rectified ? info.P[5] : info.K[4];
-  camera.cx = rectified ? info.P[2] : info.K[2];
-  camera.cy = rectified ? info.P[6] : info.K[5];
-  if (!camera.valid()) return Error{"camera_info without usable intrinsics (K and P) or size"};
-  return rounded_for_wire(camera);
-}
-
-sensor_msgs::CameraInfo info_from_camera(const Camera& camera, const std_msgs::Header& header) {
-  sensor_msgs::CameraInfo info;
-  info.header = header;
-  info.width = static_cast<std::uint32_t>(camera.width);
-  info.height = static_cast<std::uint32_t>(camera.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  info.K = {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.P = {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
-  return info;
-}
-
-Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, double unit_for_float) {
+Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, const DepthUnits& units) {
   const bool counts = image.encoding == encodings::TYPE_16UC1 || image.encoding == "mono16";
   if (!counts && image.encoding != encodings::TYPE_32FC1) {
     return Error{"encoding '" + image.encoding +
@@ -78,7 +51,7 @@ Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, double unit
   try {
     const auto shared =
         cv_bridge::toCvShare(image, nullptr, counts ? encodings::TYPE_16UC1 : image.encoding);
-    return depth_frame_from_image(shared->image, unit_for_float);
+    return depth_frame_from_image(shared->image, units);
   } catch (const std::exception& error) {
     return not_what_it_says(error);
   }

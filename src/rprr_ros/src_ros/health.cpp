@@ -4,11 +4,14 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/console.h>
 
+#include <algorithm>
+
 namespace rprr {
 namespace {
 
-constexpr double kLogPeriod = 5.0;
-constexpr double kShownFor = 10.0;
+constexpr double kLogPeriod = 5.0;          // [s] doubled each time that the same is logged ...
+constexpr double kLongestLogPeriod = 60.0;  // [s] ... up to this
+constexpr double kShownFor = 10.0;          // [s]
 
 }  // namespace
 
@@ -48,17 +51,25 @@ void Health::report(const std::string& key, const std::string& text, bool is_err
   const std::lock_guard<std::mutex> lock(mutex_);
   Problem& problem = problems_[key];
   const ros::WallTime now = ros::WallTime::now();
+  if ((now - problem.last).toSec() > kShownFor) problem.log_period = 0.0;
   problem.is_error = is_error;
   problem.text = text;
   problem.last = now;
   ++problem.times;
-  if ((now - problem.logged).toSec() < kLogPeriod) return;
+  if ((now - problem.logged).toSec() < std::max(kLogPeriod, problem.log_period)) return;
   problem.logged = now;
+  problem.log_period = std::clamp(2.0 * problem.log_period, kLogPeriod, kLongestLogPeriod);
   if (is_error) {
     ROS_ERROR_STREAM_NAMED(name_, name_ << ": " << text);
   } else {
     ROS_WARN_STREAM_NAMED(name_, name_ << ": " << text);
   }
+}
+
+void Health::clear(const std::string& key) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = problems_.find(key);
+  if (found != problems_.end()) found->second.last = ros::WallTime();
 }
 
 void Health::count(const std::string& counter, std::uint64_t by) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_ros/conversions.hpp"
-#include "rprr_wire/camera_wire.hpp"
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
@@ -22,37 +21,21 @@ TEST(Conversions, SlashesOfOldBagsAreCleaned) {
   EXPECT_EQ(clean_frame("//"), "");
 }
 
-TEST(Conversions, CameraInfoRoundTrips) {
-  const Camera camera = rounded_for_wire({640, 480, 517.3, 516.5, 318.6, 255.3});
-  const Result<Camera> back = camera_from_info(info_from_camera(camera, {}));
-  ASSERT_TRUE(back) << back.reason();
-  EXPECT_EQ(camera_hash(*back), camera_hash(camera));
-  EXPECT_FALSE(camera_from_info(sensor_msgs::CameraInfo())) << "an uncalibrated camera";
-}
-
-TEST(Conversions, ProjectionMatrixWinsOverTheRawOne) {
-  sensor_msgs::CameraInfo info = info_from_camera({640, 480, 500, 500, 320, 240}, {});
-  info.K[0] = 480;
-  EXPECT_EQ(camera_from_info(info)->fx, 500.0);
-  info.P[0] = 0;
-  EXPECT_EQ(camera_from_info(info)->fx, 480.0);
-}
-
 TEST(Conversions, DepthSharesPixelsAndKeepsCounts) {
   const cv::Mat counts(4, 4, CV_16UC1, cv::Scalar(777));
   const sensor_msgs::Image message = to_depth_image({}, {counts, 0.001});
   EXPECT_EQ(message.encoding, encodings::TYPE_16UC1);
-  const Result<DepthFrame> back = depth_from_image(message, 0.0002);
+  const Result<DepthFrame> back = depth_from_image(message, {0.001, 0.0002});
   ASSERT_TRUE(back) << back.reason();
   EXPECT_EQ(back->counts.data, message.data.data());
   const sensor_msgs::Image fine = to_depth_image({}, {counts, 0.0002});
   EXPECT_EQ(fine.encoding, encodings::TYPE_32FC1);
-  EXPECT_EQ(depth_from_image(fine, 0.0002)->counts.at<std::uint16_t>(1, 1), 777);
+  EXPECT_EQ(depth_from_image(fine, {0.001, 0.0002})->counts.at<std::uint16_t>(1, 1), 777);
 }
 
 TEST(Conversions, UnsupportedOrLyingImagesAreErrorsWithARemedy) {
   sensor_msgs::Image image = to_image({}, encodings::BGR8, cv::Mat(4, 4, CV_8UC3));
-  EXPECT_NE(depth_from_image(image, 0.001).reason().find("16UC1"), std::string::npos);
+  EXPECT_NE(depth_from_image(image, {}).reason().find("16UC1"), std::string::npos);
   EXPECT_TRUE(bgr_from_image(image));
   image.width = 4000;  // says more than it holds
   EXPECT_FALSE(bgr_from_image(image));
@@ -60,7 +43,7 @@ TEST(Conversions, UnsupportedOrLyingImagesAreErrorsWithARemedy) {
   EXPECT_NE(bgr_from_image(image).reason().find("bgr8"), std::string::npos);
   image.encoding = "no such encoding";
   EXPECT_FALSE(bgr_from_image(image));
-  EXPECT_FALSE(depth_from_image(image, 0.001));
+  EXPECT_FALSE(depth_from_image(image, {}));
   EXPECT_FALSE(bgr_from_image(sensor_msgs::Image()));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "rprr_station/silence_watch.hpp"
+#include "rprr_ros/silence_watch.hpp"
 
 namespace rprr {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "camera_topics.hpp"
 #include "child_process.hpp"
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "synthetic_kinect.hpp"
@@ -62,7 +63,7 @@ class CameraTest : public testing::Test {
         << "colour, depth and camera_info have one stamp";
     EXPECT_EQ(depth.encoding, "16UC1");
     EXPECT_EQ(depth.header.frame_id, "eyebug_a_rgb_optical_frame");
-    const auto counts = depth_from_image(depth, 0.001);
+    const auto counts = depth_from_image(depth, {});
     ASSERT_TRUE(counts) << counts.reason();
     const DepthAgreement found = compare_depth(counts->counts, kinect_->truth);
     EXPECT_GT(found.coverage, least_coverage);

@@ -66,6 +66,7 @@ class PairPlayerTest : public testing::Test {
     for (int k = 0; bag && k < kEntries; ++k) {
       EXPECT_TRUE(bag->add(entry(k, 0.0002), kCamera, "", BagShape::tum, DepthEncoding::automatic));
     }
+    EXPECT_TRUE(bag && bag->finish());
     return temporary_.path("walk.bag");
   }
 
@@ -90,7 +91,7 @@ class PairPlayerTest : public testing::Test {
     EXPECT_EQ(depth.header.frame_id, frame_id);
     EXPECT_EQ(camera.colour.at(stamp).header.frame_id, frame_id);
     EXPECT_EQ(camera.info.at(stamp).header.frame_id, frame_id);
-    const auto counts = depth_from_image(depth, unit);
+    const auto counts = depth_from_image(depth, {0.001, unit});
     ASSERT_TRUE(counts) << counts.reason();
     EXPECT_EQ(cv::norm(counts->counts, expected.image.depth.counts, cv::NORM_INF), 0.0)
         << "depth keeps its counts";

@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
 #include "rprr_sensor_ros/recording.hpp"

@@ -51,6 +51,8 @@ void write_bag(const std::string& path, double unit, BagShape shape, DepthEncodi
       ASSERT_TRUE(written) << written.reason();
     }
   }
+  const auto finished = bag->finish();
+  ASSERT_TRUE(finished) << finished.reason();
 }
 
 /// A copy of a bag without some topics.
@@ -83,7 +85,7 @@ TEST_P(RoundTrip, CountsColoursStampsAndPosesSurvive) {
   const std::string path = temporary.path("walk.bag");
   write_bag(path, GetParam().unit, GetParam().shape, GetParam().encoding);
   RecordingOptions options;
-  options.depth_unit = GetParam().unit;
+  options.depth.for_metres = GetParam().unit;
   const auto recording = open_recording(path, options);
   ASSERT_TRUE(recording) << recording.reason();
   EXPECT_EQ((*recording)->remark(), "");
@@ -124,6 +126,37 @@ TEST(BagWriter, RefusesToRoundAndStampsThatBagsCannotHold) {
   EXPECT_FALSE(bag->add(frame, kCamera, "r", BagShape::rprr, DepthEncoding::automatic));
   EXPECT_FALSE(BagWriter::create(temporary.path("no/such/folder.bag"), "none"));
   EXPECT_FALSE(BagWriter::create(temporary.path("y.bag"), "zip"));
+}
+
+TEST(BagWriter, ABagIsThereWholeOrNotAtAll) {
+  const TemporaryFolder temporary;
+  const std::string path = temporary.path("x.bag");
+  {
+    auto bag = BagWriter::create(path, "none");
+    ASSERT_TRUE(bag);
+    EXPECT_TRUE(
+        bag->add(random_frame(0, 0.001), kCamera, "r", BagShape::rprr, DepthEncoding::automatic));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(temporary.path())) << "what ended early leaves nothing";
+}
+
+// A device on which nothing fits stands for a disk that is full.
+TEST(BagWriter, AFullDiskIsAnErrorAtTheLatestAtTheEnd) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const TemporaryFolder temporary;
+  const std::string path = temporary.path("x.bag");
+  std::filesystem::create_symlink("/dev/full", path + ".part");
+  auto bag = BagWriter::create(path, "none");
+  std::string reason = bag.reason();
+  if (bag) {
+    const auto added =
+        bag->add(random_frame(0, 0.001), kCamera, "r", BagShape::rprr, DepthEncoding::automatic);
+    const auto finished = bag->finish();
+    EXPECT_FALSE(finished);
+    reason = added.reason() + finished.reason();
+  }
+  EXPECT_NE(reason.find(path), std::string::npos) << reason;
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Recording, FolderAndBagOpenAlike) {

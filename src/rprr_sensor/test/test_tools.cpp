@@ -60,7 +60,7 @@ TEST(Tools, SyntheticFolderBecomesBagsOfTheSameDepth) {
     const std::string path = temporary.path(std::string(shape) + ".bag");
     ASSERT_TRUE(run("folder_to_bag", walk + " " + path + " --compress lz4 --shape " + shape));
     RecordingOptions options;
-    options.depth_unit = 0.001;
+    options.depth.for_metres = 0.001;
     const auto bag = open_recording(path, options);
     ASSERT_TRUE(bag) << bag.reason();
     const auto frame = (*bag)->load(1);

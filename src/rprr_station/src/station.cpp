@@ -166,7 +166,9 @@ Result<EncodedFrame> Station::parse(const ReceivedMessage& message, RebuiltFrame
   if (!camera.valid() ||
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) >
           options_.largest_image) {
-    return Error{"image larger than the station accepts"};
+    return Error{"an image of " + std::to_string(camera.width) + "x" +
+                 std::to_string(camera.height) + " is unusable or larger than ~largest_image = " +
+                 std::to_string(options_.largest_image) + " pixels"};
   }
   if (!encoded->sparse) return encoded;
   if (robots_.count(encoded->reference) == 0) {

@@ -21,13 +21,14 @@
 #include <vector>
 
 #include "rprr_radio_ros/radio_links.hpp"
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 #include "rprr_ros/sender_watch.hpp"
 #include "rprr_ros/steady_now.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_station/scene_cloud.hpp"
-#include "rprr_station/silence_watch.hpp"
 #include "rprr_station/station.hpp"
 #include "rprr_wire/bytes.hpp"
 #include "station_messages.hpp"
@@ -70,6 +71,7 @@ class StationNodelet : public nodelet::Nodelet {
     health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "station", "station");
     const std::string wrong = read_station_parameters(getPrivateNodeHandle(), parameters_);
     if (!wrong.empty()) return health_->refuse_parameters(wrong);
+    inputs_ = std::make_unique<InputReport>(nh, *health_);
     const std::vector<std::string>& names = parameters_.station.robots;
     statistics_ = nh.advertise<rprr_msgs::PairStatistics>("/station/statistics", 20);
     points_ = nh.advertise<sensor_msgs::PointCloud2>("/station/points", 2);
@@ -89,6 +91,8 @@ class StationNodelet : public nodelet::Nodelet {
           [this, name](const Event& event) { on_encoded(name, event); });
       options.transport_hints = ros::TransportHints().tcpNoDelay();
       robots_[name].encoded = nh.subscribe(options);
+      inputs_->expect(robots_[name].encoded.getTopic(), InputKind::kStream,
+                      "frame of '" + name + "'", "look at its nodes, its camera and its radio");
       if (parameters_.link_recovery) {
         links_ = RadioLinks::look_after({robots_[name].encoded.getTopic()});
       }
@@ -156,7 +160,6 @@ class StationNodelet : public nodelet::Nodelet {
       publish(station_->tick(steady_now()));
       if (++ticks_ % kTicksOfReceipts == 0) {
         for (const auto& [name, robot] : robots_) publish_receipt(name, {});
-        watch_silence();
         if (links_) show(links_->state(), *health_);
       }
     });
@@ -181,20 +184,10 @@ class StationNodelet : public nodelet::Nodelet {
     const Stamp last = station_->last(name);
     const StationOutput output = station_->receive(received, steady_now());
     if (station_->last(name) != last) {
-      silence_.heard(name, steady_now());
+      inputs_->heard(robots_[name].encoded.getTopic());
       publish_receipt(name, {});
     }
     publish(output);
-  }
-
-  void watch_silence() {
-    for (const auto& [name, robot] : robots_) {
-      const auto seconds = silence_.silent_for(name, steady_now());
-      if (!seconds) continue;
-      health_->warn("silent " + name, "no frame of '" + name + "' for " +
-                                          std::to_string(std::lround(*seconds)) +
-                                          " s: look at its nodes, its camera and its radio");
-    }
   }
 
   void publish(const StationOutput& output) {
@@ -276,6 +269,7 @@ class StationNodelet : public nodelet::Nodelet {
   // In the order in which they need each other: what is below is destroyed first.
   StationParameters parameters_;
   std::unique_ptr<Health> health_;
+  std::unique_ptr<InputReport> inputs_;
   ros::Publisher statistics_;
   ros::Publisher receipts_;
   ros::Publisher points_;
@@ -284,11 +278,10 @@ class StationNodelet : public nodelet::Nodelet {
   SenderWatch senders_;
   std::mutex mutex_;  // of the robots' queues and the next
   bool tick_posted_ = false;
-  std::unique_ptr<Station> station_;  // the worker's, as are the next five
+  std::unique_ptr<Station> station_;  // the worker's, as are the next four
   unsigned ticks_ = 0;
   std::unique_ptr<SceneCloud> cloud_;
   Scene scene_;
-  SilenceWatch silence_;
   SteadyTime next_scene_;
   std::map<std::string, Robot> robots_;
   std::unique_ptr<Worker> worker_;

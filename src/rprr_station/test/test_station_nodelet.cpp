@@ -162,7 +162,7 @@ TEST_F(StationNodelet, WholeAndSparseFrameToViews) {
   EXPECT_EQ(bgr->at<cv::Vec3b>(100, 100), cv::Vec3b(10, 100, 150)) << "predicted";
   EXPECT_EQ(bgr->at<cv::Vec3b>(2, 2), cv::Vec3b(200, 100, 150)) << "received";
   EXPECT_EQ(depth.messages[0]->encoding, "16UC1");
-  const auto counts = depth_from_image(*depth.messages[0], 0.001);
+  const auto counts = depth_from_image(*depth.messages[0], {});
   ASSERT_TRUE(counts) << counts.reason();
   EXPECT_EQ(counts->counts.at<std::uint16_t>(100, 100), 2000);
   EXPECT_EQ(counts->counts.at<std::uint16_t>(2, 2), 1500);

@@ -49,7 +49,7 @@ Result<sensor_msgs::CompressedImage> DepthMessageEncoder::encode(const sensor_ms
     message.data = std::move(*payload);
     return message;
   }
-  const Result<DepthFrame> frame = depth_from_image(image, 0.001);
+  const Result<DepthFrame> frame = depth_from_image(image, {});
   if (!frame) return Error{frame.reason()};
   if (frame->width() > kMaxImageSide || frame->height() > kMaxImageSide) {
     return Error{"image has more than " + std::to_string(kMaxImageSide) + " pixels a side"};

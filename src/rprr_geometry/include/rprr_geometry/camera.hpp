@@ -2,11 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace rprr {
 
 /// The largest image side that any part of RPRR accepts.
 constexpr int kMaxImageSide = 8192;
+/// Images of more pixels are refused unless an option says otherwise, by robots and station alike.
+constexpr std::size_t kLargestImage = 1920 * 1200;
 
 /// A pinhole camera without distortion (images are rectified before they come here). Optical frame
 /// of REP-103: x right, y down, z forward. Pixel centres have integer coordinates.

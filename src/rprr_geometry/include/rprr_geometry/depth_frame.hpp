@@ -42,11 +42,16 @@ struct DepthFrame {
   double metres(int u, int v) const { return counts.at<std::uint16_t>(v, u) * unit; }
 };
 
-/// A frame of any of REP-118's images. 16UC1 is taken as counts of 1 mm without a copy. 32FC1 [m]
-/// becomes counts of the given unit, rounded; what is not finite, not positive or beyond 65535
-/// counts becomes 0.
+/// What numbers in depth images stand for.
+struct DepthUnits {
+  double of_counts = 0.001;   ///< depth of one count of 16UC1 [m]; REP-118 says 1 mm
+  double for_metres = 0.001;  ///< step that 32FC1 is rounded to [m]
+};
+
+/// A frame of any of REP-118's images. 16UC1 is taken as counts without a copy. 32FC1 [m] becomes
+/// counts, rounded; what is not finite, not positive or beyond 65535 counts becomes 0.
 /// Errors: another type, an empty image, a unit that is not positive.
-Result<DepthFrame> depth_frame_from_image(const cv::Mat& image, double unit_for_float);
+Result<DepthFrame> depth_frame_from_image(const cv::Mat& image, const DepthUnits& units);
 
 /// A new 32FC1 image in metres with NaN where there is no reading.
 cv::Mat to_float_image(const DepthFrame& frame);

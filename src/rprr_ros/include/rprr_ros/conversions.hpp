@@ -28,15 +28,9 @@ std::string clean_frame(const std::string& frame);
 std::string optical_frame(const std::string& robot);
 std::string rebuilt_frame(const std::string& robot);
 
-/// Intrinsics of the rectified image: P where it is set, else K. Errors: what Camera::valid
-/// refuses.
-Result<Camera> camera_from_info(const sensor_msgs::CameraInfo& info);
-/// A rectified camera without distortion; intrinsics in K and P.
-sensor_msgs::CameraInfo info_from_camera(const Camera& camera, const std_msgs::Header& header);
-
-/// Counts of a 16UC1 (millimetres) or 32FC1 (metres, quantised to unit_for_float) image. A 16UC1
-/// frame shares the message's pixels: keep the message alive.
-Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, double unit_for_float);
+/// Counts of a 16UC1 or 32FC1 image. A 16UC1 frame shares the message's pixels: keep the message
+/// alive.
+Result<DepthFrame> depth_from_image(const sensor_msgs::Image& image, const DepthUnits& units);
 /// CV_8UC3 BGR. A bgr8 image shares the message's pixels: keep the message alive.
 Result<cv::Mat> bgr_from_image(const sensor_msgs::Image& image);
 

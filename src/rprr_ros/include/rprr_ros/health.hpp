@@ -28,10 +28,12 @@ class Health {
   ~Health();
 
   /// Something is wrong: text names the topic, what was expected and the remedy. Logged at most
-  /// once every five seconds for a key; /diagnostics shows it until ten seconds after its last
-  /// report.
+  /// once every five seconds for a key, and less often the longer it lasts; /diagnostics shows it
+  /// until ten seconds after its last report, or until clear().
   void warn(const std::string& key, const std::string& text);
   void error(const std::string& key, const std::string& text);
+  /// What was reported with that key is mended.
+  void clear(const std::string& key);
   /// Says once and for all that the nodelet does nothing: its parameters are wrong, as text says.
   void refuse_parameters(const std::string& text);
   /// Adds to a counter shown on /diagnostics.
@@ -45,6 +47,7 @@ class Health {
     std::string text;
     ros::WallTime last;
     ros::WallTime logged;
+    double log_period = 0.0;  // until it is logged again [s]
     std::uint64_t times = 0;
     bool lasts = false;  // shown until the node ends
   };

@@ -9,21 +9,25 @@
 
 namespace rprr {
 
-/// Notices when a robot that was heard is heard no more: much longer than between its frames so
-/// far. `now` is any steady time in nanoseconds.
+/// Notices when something that was heard regularly, such as a robot's frames, is heard no more: for
+/// much longer than between its messages so far.
 class SilenceWatch {
  public:
-  /// A frame of that robot came.
-  void heard(const std::string& robot, SteadyTime now);
-  /// Seconds since its last frame, if that is too long; a robot that never spoke is not missed.
-  std::optional<double> silent_for(const std::string& robot, SteadyTime now) const;
+  /// least: silences that are shorter are never too long.
+  explicit SilenceWatch(Duration least = from_seconds(3.0)) : least_(least) {}
+
+  /// A message of that name came.
+  void heard(const std::string& name, SteadyTime now);
+  /// Seconds since its last message, if that is too long; what was never heard is not missed.
+  std::optional<double> silent_for(const std::string& name, SteadyTime now) const;
 
  private:
-  struct Robot {
+  struct Heard {
     SteadyTime last;
-    double interval = 0.0;  // seconds between frames, smoothed
+    double interval = 0.0;  // between messages, smoothed [s]
   };
-  std::map<std::string, Robot> robots_;
+  Duration least_;
+  std::map<std::string, Heard> heard_;
 };
 
 }  // namespace rprr

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rprr_geometry/camera.hpp"
+#include "rprr_geometry/depth_frame.hpp"
 #include "rprr_geometry/result.hpp"
 #include "rprr_geometry/rgbd_image.hpp"
 #include "rprr_geometry/se3.hpp"
@@ -37,7 +38,7 @@ class Recording {
 
 struct RecordingOptions {
   double association_window_s = 0.02;  // colour to depth, where they are not associated yet
-  double depth_unit = 0.0002;          // metres per count that 32FC1 depth of a bag becomes
+  DepthUnits depth{0.001, 0.0002};     // of a bag's images
   std::optional<Camera> camera;        // instead of what the source says
   std::string colour_topic;            // of a bag; empty: found by its name
   std::string depth_topic;             // of a bag; empty: found by its name

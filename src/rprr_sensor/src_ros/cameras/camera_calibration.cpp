@@ -7,6 +7,7 @@
 #include <cctype>
 #include <vector>
 
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 
 namespace rprr {

@@ -2,6 +2,7 @@
 #include "cameras/camera_relay.hpp"
 
 #include <pluginlib/class_list_macros.hpp>
+#include <type_traits>
 
 #include "cameras/relay_options.hpp"
 #include "rprr_ros/parameters.hpp"
@@ -11,7 +12,7 @@ namespace rprr {
 namespace {
 
 constexpr int kQueue = 4;
-constexpr double kLookPeriod = 3.0;  // s
+constexpr double kShowPeriod = 3.0;  // [s]
 
 }  // namespace
 
@@ -21,44 +22,41 @@ void CameraRelay::onInit() {
   const std::string wrong = read_parameters(private_nh, options_of(options));
   health_ = std::make_unique<Health>(getNodeHandle(), private_nh, getName(), options.robot);
   if (!wrong.empty()) return health_->refuse_parameters(wrong);
+  inputs_ = std::make_unique<InputReport>(getNodeHandle(), *health_);
   const InputTopics topics = input_topics(options.robot);
   connect<sensor_msgs::CameraInfo>(lines_[0], options.camera_info_topic, topics.camera_info);
   connect<sensor_msgs::Image>(lines_[1], options.rgb_topic, topics.colour);
   connect<sensor_msgs::Image>(lines_[2], options.depth_topic, topics.depth);
   timer_ =
-      getNodeHandle().createWallTimer(ros::WallDuration(kLookPeriod), &CameraRelay::watch, this);
+      getNodeHandle().createWallTimer(ros::WallDuration(kShowPeriod), &CameraRelay::show, this);
 }
 
 template <typename Message>
 void CameraRelay::connect(Line& line, const std::string& from, const std::string& to) {
   ros::NodeHandle& nh = getNodeHandle();
-  line.to = nh.advertise<Message>(to, kQueue);
+  // Latched, since the driver may say its camera_info once only.
+  const bool latched = std::is_same_v<Message, sensor_msgs::CameraInfo>;
+  line.to = nh.advertise<Message>(to, kQueue, latched);
   if (nh.resolveName(from) == nh.resolveName(to)) {
-    NODELET_ERROR("%s would be passed on to itself: name the camera driver's topic", to.c_str());
-    return;
+    return health_->refuse_parameters(to +
+                                      " would be passed on to itself: name the camera "
+                                      "driver's topic");
   }
   const boost::function<void(const boost::shared_ptr<const Message>&)> pass =
-      [&line](const boost::shared_ptr<const Message>& message) {
+      [this, &line](const boost::shared_ptr<const Message>& message) {
         line.to.publish(message);
         ++line.passed;
+        inputs_->heard(line.from.getTopic());
       };
   line.from = nh.subscribe<Message>(from, kQueue, pass);
+  inputs_->expect(line.from.getTopic(), latched ? InputKind::kOnce : InputKind::kStream,
+                  "message for " + to,
+                  "start the camera's driver with depth registration, or give its topic's name");
 }
 
-void CameraRelay::watch(const ros::WallTimerEvent& /*event*/) {
-  for (Line& line : lines_) {
-    const std::uint64_t passed = line.passed;
-    const std::string from = line.from.getTopic();
-    health_->show(from + " (messages)", std::to_string(passed));
-    if (passed == line.seen && !from.empty()) {
-      const bool published = line.from.getNumPublishers() > 0;
-      health_->warn(from, "nothing on " + from + ", which should become " + line.to.getTopic() +
-                              (published ? ": its publisher is silent; is depth registration on, "
-                                           "and the camera plugged in?"
-                                         : ": nobody publishes it; is the camera driver up, and "
-                                           "is that the topic's name?"));
-    }
-    line.seen = passed;
+void CameraRelay::show(const ros::WallTimerEvent& /*event*/) {
+  for (const Line& line : lines_) {
+    health_->show(line.from.getTopic() + " (messages)", std::to_string(line.passed));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 
 namespace rprr {
 
@@ -28,15 +29,15 @@ class CameraRelay : public nodelet::Nodelet {
     ros::Subscriber from;
     ros::Publisher to;
     std::atomic<std::uint64_t> passed{0};
-    std::uint64_t seen = 0;  // of them, at the last look
   };
 
   void onInit() override;
   template <typename Message>
   void connect(Line& line, const std::string& from, const std::string& to);
-  void watch(const ros::WallTimerEvent& event);
+  void show(const ros::WallTimerEvent& event);
 
   std::unique_ptr<Health> health_;
+  std::unique_ptr<InputReport> inputs_;
   std::array<Line, 3> lines_;
   ros::WallTimer timer_;
 };

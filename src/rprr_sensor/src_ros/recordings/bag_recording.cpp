@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_sensor/recordings/association.hpp"
 #include "rprr_sensor/recordings/tum_folder.hpp"
@@ -37,13 +38,20 @@ std::vector<std::string> topics_of_type(const rosbag::Bag& bag, const std::strin
   return {topics.begin(), topics.end()};
 }
 
+std::string list_of(const std::vector<std::string>& topics) {
+  std::string list;
+  for (const auto& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+  return list.empty() ? "none" : list;
+}
+
 /// The one topic with the first of the endings that any topic has.
 Result<std::string> choose_topic(const std::vector<std::string>& topics,
                                  const std::string& requested,
                                  const std::vector<std::string>& endings, const std::string& what) {
   if (!requested.empty()) {
     if (std::find(topics.begin(), topics.end(), requested) != topics.end()) return requested;
-    return Error{"has no images on the " + what + " topic " + requested};
+    return Error{"has no images on the " + what + " topic " + requested +
+                 "; its image topics: " + list_of(topics)};
   }
   for (const auto& ending : endings) {
     std::vector<std::string> found;
@@ -52,12 +60,15 @@ Result<std::string> choose_topic(const std::vector<std::string>& topics,
     }
     if (found.size() == 1) return found.front();
     if (found.size() > 1) {
-      return Error{"has more than one " + what + " topic (" + found[0] + ", " + found[1] +
-                   "): play a bag of two robots with rosbag, or name one camera's topics"};
+      return Error{"has more than one " + what + " topic (" + list_of(found) +
+                   "): play a bag of two robots with pair.launch bag:=, or name one camera's with "
+                   "colour_topic:= and depth_topic:="};
     }
   }
-  return Error{"has no " + what + " images on a topic that ends with " + endings.front() + " or " +
-               endings.back() + "; name the topic"};
+  return Error{
+      "has no " + what + " images on a topic that ends with " + endings.front() + " or " +
+      endings.back() +
+      "; name it with colour_topic:= and depth_topic:=. Its image topics: " + list_of(topics)};
 }
 
 std::string before_ending(const std::string& topic, const std::string& ending) {
@@ -145,15 +156,24 @@ std::optional<Error> BagRecording::find_camera(const std::string& colour_topic,
     return std::nullopt;
   }
   const std::string topic = colour_topic.substr(0, colour_topic.rfind('/')) + "/camera_info";
+  const auto image = colour_.messages.front().instantiate<sensor_msgs::Image>();
+  const ImageSize size =
+      image ? ImageSize{static_cast<int>(image->width), static_cast<int>(image->height)}
+            : ImageSize{};
+  // A driver may say nothing useful at first: the first message that can be used counts.
+  std::string reason;
   rosbag::View view(bag_, rosbag::TopicQuery(topic));
   for (const rosbag::MessageInstance& message : view) {
     const auto info = message.instantiate<sensor_msgs::CameraInfo>();
     if (!info) continue;
-    const auto camera = camera_from_info(*info);
-    if (!camera) return Error{path + ": " + topic + ": " + camera.reason()};
-    camera_ = *camera;
-    return std::nullopt;
+    const auto camera = camera_from_info(*info, size);
+    if (camera) {
+      camera_ = *camera;
+      return std::nullopt;
+    }
+    reason = camera.reason();
   }
+  if (!reason.empty()) return Error{path + ": " + topic + ": " + reason};
   camera_ = tum_default_camera(path);
   remark_ = path + ": nothing on " + topic + "; taking fx=" + std::to_string(camera_.fx) +
             " fy=" + std::to_string(camera_.fy) + " cx=" + std::to_string(camera_.cx) +
@@ -225,7 +245,7 @@ Result<RecordedFrame> BagRecording::load(std::size_t index) {
     if (!colour || !depth) return Error{"the bag's image messages have another definition"};
     const auto bgr = bgr_from_image(*colour);
     if (!bgr) return Error{colour_message.getTopic() + ": " + bgr.reason()};
-    const auto counts = depth_from_image(*depth, options_.depth_unit);
+    const auto counts = depth_from_image(*depth, options_.depth);
     if (!counts) return Error{depth_message.getTopic() + ": " + counts.reason()};
     const cv::Size size(camera_.width, camera_.height);
     if (bgr->size() != size || counts->counts.size() != size) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_ros/conversions.hpp"
 #include "rprr_ros/parameters.hpp"
 #include "rprr_sensor_ros/frame_messages.hpp"
@@ -39,13 +40,20 @@ void PairPlayer::onInit() {
   std::string wrong = read_parameters(private_nh, options_of(settings_));
   if (wrong.empty()) wrong = complete(settings_);
   health_ = std::make_unique<Health>(nh, private_nh, getName(), settings_.a + "+" + settings_.b);
-  if (!wrong.empty()) return health_->refuse_parameters(wrong);
+  inputs_ = std::make_unique<InputReport>(nh, *health_);  // of /clock
+  if (!wrong.empty()) {
+    health_->refuse_parameters(wrong);
+    if (settings_.required) ros::requestShutdown();
+    return;
+  }
   a_ = advertise(settings_.a);
   b_ = advertise(settings_.b);
   done_ = private_nh.advertise<std_msgs::Bool>("done", 1, true);
   next_ = private_nh.advertiseService("next", &PairPlayer::on_next, this);
   if (settings_.handshake) {
     statistics_ = nh.subscribe("/station/statistics", 20, &PairPlayer::on_statistics, this);
+    inputs_->expect(statistics_.getTopic(), InputKind::kSometimes, "answers",
+                    "start the station, or set ~handshake to false");
   }
   worker_ = std::make_unique<Worker>(1);
   worker_->post([this] { play(); });
@@ -86,15 +94,13 @@ bool PairPlayer::on_next(std_srvs::Trigger::Request& /*request*/,
 void PairPlayer::play() {
   auto recording = open_recording(settings_.source, settings_.recording);
   if (!recording) {
-    health_->error("source", "~source: " + recording.reason());
-    return finish(false);
+    return fail("~source: " + recording.reason());
   }
   if (!(*recording)->remark().empty()) health_->warn("remark", (*recording)->remark());
   PairSchedule schedule((*recording)->size(), settings_.schedule);
   if (schedule.pairs() == 0) {
-    health_->error("schedule", settings_.source + " has " + std::to_string((*recording)->size()) +
-                                   " entries: no pair with ~step and ~start as they are");
-    return finish(false);
+    return fail(settings_.source + " has " + std::to_string((*recording)->size()) +
+                " entries: no pair with ~step and ~start as they are");
   }
   await_subscribers();
   bool all_played = true;
@@ -108,6 +114,13 @@ void PairPlayer::play() {
     health_->show("pairs", std::to_string(++played) + " played, " +
                                std::to_string(schedule.pairs()) + " in a round");
   }
+}
+
+// There is nothing to play.
+void PairPlayer::fail(const std::string& reason) {
+  health_->error("source", reason);
+  finish(false);
+  if (settings_.required) ros::requestShutdown();
 }
 
 bool PairPlayer::play_pair(Recording& recording, std::size_t a, std::size_t b) {
@@ -153,11 +166,12 @@ void PairPlayer::await_subscribers() {
         if (static_cast<int>(publisher->getNumSubscribers()) >= settings_.wait_for_subscribers) {
           continue;
         }
-        NODELET_INFO_THROTTLE(5.0, "waiting for %d subscribers on %s",
-                              settings_.wait_for_subscribers, publisher->getTopic().c_str());
+        health_->show("waiting for", std::to_string(settings_.wait_for_subscribers) +
+                                         " subscribers on " + publisher->getTopic());
         return false;
       }
     }
+    health_->show("waiting for", "nothing");
     return true;
   };
   if (!wait_until(enough, settings_.wait_timeout) && running()) {
@@ -210,12 +224,7 @@ void PairPlayer::await_answer(const ros::Time& stamp) {
 }
 
 ros::Time PairPlayer::fresh_stamp() {
-  const auto clock_runs = [this] {
-    const bool runs = !ros::Time::now().isZero();
-    if (!runs) NODELET_WARN_THROTTLE(5.0, "use_sim_time is set but /clock is silent");
-    return runs;
-  };
-  wait_until(clock_runs, -1.0);
+  wait_until([] { return !ros::Time::now().isZero(); }, -1.0);
   // Frames are named by their stamps: no two may have the same.
   const ros::Time now = ros::Time::now();
   const bool repeated = now <= last_stamp_ && now > last_stamp_ - ros::Duration(1.0);

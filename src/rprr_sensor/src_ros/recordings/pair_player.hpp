@@ -14,6 +14,7 @@
 
 #include "recordings/player_options.hpp"
 #include "rprr_ros/health.hpp"
+#include "rprr_ros/input_report.hpp"
 #include "rprr_ros/worker.hpp"
 #include "rprr_sensor/recordings/pair_schedule.hpp"
 #include "rprr_sensor_ros/recording.hpp"
@@ -47,6 +48,7 @@ class PairPlayer : public nodelet::Nodelet {
 
   // On the worker's thread:
   void play();
+  void fail(const std::string& reason);
   bool play_pair(Recording& recording, std::size_t a, std::size_t b);
   void publish(const Outputs& outputs, const RecordedFrame& frame, const Camera& camera,
                const ros::Time& stamp);
@@ -62,6 +64,7 @@ class PairPlayer : public nodelet::Nodelet {
 
   PlayerOptions settings_;
   std::unique_ptr<Health> health_;
+  std::unique_ptr<InputReport> inputs_;
   Outputs a_;
   Outputs b_;
   ros::Publisher done_;

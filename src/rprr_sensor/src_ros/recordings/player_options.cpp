@@ -10,7 +10,9 @@ void list_source(PlayerOptions& o, OptionTable& table) {
   table.group("What is read");
   table.number("association_window", o.recording.association_window_s, {0.0, 10.0}, "s",
                "Most time between a colour and a depth image that belong together");
-  table.number("depth_unit", o.recording.depth_unit, {0.00001, 0.1}, "m",
+  table.number("depth_scale", o.recording.depth.of_counts, {0.00001, 0.1}, "m",
+               "Depth that one count of a bag's 16UC1 images stands for");
+  table.number("depth_unit", o.recording.depth.for_metres, {0.00001, 0.1}, "m",
                "Depth that a count stands for, which a bag's 32FC1 depth becomes; TUM: 0.0002");
   table.text("colour_topic", o.recording.colour_topic, "Of a bag; empty: found by its name");
   table.text("depth_topic", o.recording.depth_topic, "Of a bag; empty: found by its name");
@@ -46,6 +48,9 @@ void list_options(PlayerOptions& o, OptionTable& table) {
               "On every camera topic of both robots before the first pair");
   table.number("wait_timeout", o.wait_timeout, {-1.0, 86400.0}, "s",
                "Wall time until playing starts without them; below 0: never");
+  table.flag("required", o.required,
+             "End the process, and with it a launch that requires it, where there is nothing to "
+             "play; not for a nodelet manager that others use");
   list_source(o, table);
 }
 

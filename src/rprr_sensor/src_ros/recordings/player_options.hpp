@@ -20,6 +20,7 @@ struct PlayerOptions {
   double handshake_timeout = 10.0;  // s of wall time
   int wait_for_subscribers = 1;
   double wait_timeout = 30.0;  // s of wall time; negative: without end
+  bool required = false;       // the process ends where there is nothing to play
   RecordingOptions recording;  // its camera is made from the next
   double fx = 0.0;             // [px]; 0: the source's own camera
   double fy = 0.0;             // [px]; 0: as fx

@@ -23,6 +23,7 @@ class FolderRecording : public Recording {
     return RecordedFrame{entry.stamp, std::move(*image), entry.world_from_camera,
                          entry.depth_stamp};
   }
+  std::string remark() const override { return folder_.remark; }
 
  private:
   TumFolder folder_;

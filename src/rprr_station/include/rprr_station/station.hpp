@@ -36,7 +36,7 @@ struct StationOptions {
   std::size_t waiting = 4;          // sparse frames per robot that may wait for their reference
   Duration wait_for_reference = from_seconds(2.0);
   std::size_t largest_message = std::size_t{8} << 20;  // bytes of an encoded frame
-  std::size_t largest_image = 1920 * 1200;             // [px]
+  std::size_t largest_image = kLargestImage;           // [px]
 };
 
 /// An rprr_msgs/EncodedFrame as it came over the radio. Everything in it is untrusted.
