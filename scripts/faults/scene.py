@@ -2,6 +2,7 @@
 """Cameras of a pair that show a recording, and a judge of what the station makes of it."""
 
 import collections
+import copy
 import pathlib
 import sys
 import threading
@@ -25,14 +26,16 @@ class Cameras:
     """Both robots' cameras, from a thread of its own: entry k is a's, k + 1 b's.
 
     What to show is changed while it runs: offset (seconds by which a robot's stamps are off),
-    change (a function of colour and depth in mm), playing, and replay(), which shows again what was
-    shown, with the same stamps.
+    change (a function of colour and depth in mm), alter (a function of camera_info, colour and
+    depth as messages, which gives those to be published; None: none), playing, and replay(), which
+    shows again what was shown, with the same stamps.
     """
 
     def __init__(self, folder, rate):
         self.recording, self.rate = Recording(folder), rate
         self.offset = {A: 0.0, B: 0.0}
         self.change = {A: None, B: None}
+        self.alter = {A: None, B: None}
         self.playing = threading.Event()
         self.truth = collections.OrderedDict()  # (robot, stamp in ns) to Truth
         self._lock = threading.Lock()
@@ -96,13 +99,16 @@ class Cameras:
             self.truth[robot, stamp] = Truth(bgr, depth, time.monotonic())
             while len(self.truth) > 400:
                 self.truth.popitem(last=False)
-        info, colour_topic, depth_topic = self._publishers[robot]
         header = rospy.Header(stamp=rospy.Time(stamp // 10**9, stamp % 10**9),
                               frame_id=robot + "_rgb_optical_frame")
-        info.publish(camera_info(self.recording.camera, header))
-        colour_topic.publish(image_message(bgr, "bgr8", header))
         encoding = "16UC1" if depth.dtype == numpy.uint16 else "32FC1"
-        depth_topic.publish(image_message(depth, encoding, header))
+        messages = [camera_info(self.recording.camera, header),
+                    image_message(bgr, "bgr8", header), image_message(depth, encoding, header)]
+        if self.alter[robot]:
+            messages = self.alter[robot](*copy.deepcopy(messages))
+        for publisher, message in zip(self._publishers[robot], messages):
+            if message is not None:
+                publisher.publish(message)
 
 
 def camera_info(camera, header):

@@ -40,6 +40,14 @@ Stamp stamp_of(const PoseMessage& message) {
   return std::visit([](const auto& any) { return any.stamp; }, message);
 }
 
+// The optical frame that the sender names; an update names none.
+std::string frame_of(const PoseMessage& message) {
+  if (const auto* samples = std::get_if<SamplesMessage>(&message)) return samples->frame_id;
+  if (const auto* preview = std::get_if<PreviewMessage>(&message)) return preview->frame_id;
+  if (const auto* pose = std::get_if<RelativePoseMessage>(&message)) return pose->frame_id;
+  return {};
+}
+
 std::vector<std::string> topics_of(const std::vector<ros::Subscriber>& subscribers) {
   std::vector<std::string> topics;
   for (const ros::Subscriber& subscriber : subscribers) topics.push_back(subscriber.getTopic());
@@ -76,6 +84,7 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
   input_ = std::make_unique<RgbdSubscriber>(
       nh_, private_nh, options_.robot, input, health_, [this](const RgbdFramePtr& frame) {
         worker_->post([this, frame] {
+          own_frame_ = frame->frame_id;
           motion_.see(frame);
           drive([&](RoleOutput& out) { stage_->offer(frame, steady_now(), out); });
         });
@@ -173,6 +182,14 @@ void ExchangeNode::set_reference(const std::string& peer, bool refer) {
 
 void ExchangeNode::take(const std::string& peer, const PoseMessage& message, double age) {
   clocks_.received(peer, message, age);
+  const std::string frame = clean_frame(frame_of(message));
+  if (!frame.empty() && frame == own_frame_) {
+    health_.warn("frames clash", options_.robot + " and " + peer +
+                                     " both call their camera's frame '" + frame +
+                                     "': tf and rviz cannot tell them apart. Give each "
+                                     "driver a frame of its own, such as " +
+                                     optical_frame(options_.robot));
+  }
   drive([&](RoleOutput& out) { stage_->receive(peer, message, steady_now(), out); });
 }
 

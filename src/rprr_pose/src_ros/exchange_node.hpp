@@ -68,6 +68,7 @@ class ExchangeNode {
   MotionReport motion_;                   // worker thread
   std::optional<SteadyTime> radio_told_;  // worker thread; when the radio's state came, if it did
   SenderWatch senders_;
+  std::string own_frame_;              // of the newest frame; the worker's
   std::shared_ptr<RadioLinks> links_;  // null: links are not recovered
   ros::Publisher samples_, update_, preview_, pose_, decisions_;
   std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
