@@ -10,6 +10,7 @@
 #include "radio_attacker.hpp"
 #include "recorded_pair.hpp"
 #include "rprr_eval/measure/metrics.hpp"
+#include "rprr_ros/camera_info.hpp"
 #include "rprr_synthetic/temporary_folder.hpp"
 #include "rprr_view/provenance.hpp"
 #include "rprr_wire/camera_wire.hpp"

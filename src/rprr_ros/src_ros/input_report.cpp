@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_ros/input_report.hpp"
 
+#include <ros/param.h>
 #include <ros/topic_manager.h>
 
+#include <algorithm>
 #include <map>
 
 #include "rprr_ros/steady_now.hpp"
 
 namespace rprr {
+namespace {
+
+constexpr double kLongestPatience = 600.0;  // [s]
+
+Duration configured_patience() {
+  double seconds = to_seconds(InputWatch::kPatience);
+  ros::param::get("/rprr/input_patience", seconds);
+  return from_seconds(std::clamp(seconds, 0.0, kLongestPatience));
+}
+
+}  // namespace
 
 InputReport::InputReport(ros::NodeHandle nh, Health& health)
     : health_(health),
+      patience_(configured_patience()),
+      watch_(patience_),
       clock_since_(steady_now()),
       timer_(nh.createWallTimer(ros::WallDuration(1.0),
                                 [this](const ros::WallTimerEvent&) { look(); })) {
@@ -52,7 +67,7 @@ void InputReport::look() {
 
 std::string InputReport::clock_problem() {
   if (!ros::Time::isSimTime() || ros::Time::isValid()) clock_since_ = steady_now();
-  if (steady_now() - clock_since_ < InputWatch::kPatience) return {};
+  if (steady_now() - clock_since_ < patience_) return {};
   return "/use_sim_time is true but nothing comes on /clock, so time stands still: play the bag "
          "with --clock, or set the parameter to false and start the nodes again";
 }

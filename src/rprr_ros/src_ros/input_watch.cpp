@@ -41,7 +41,7 @@ std::vector<InputWatch::Problem> InputWatch::problems(SteadyTime now) const {
 std::string InputWatch::missing(const std::string& topic, const Input& input,
                                 SteadyTime now) const {
   const std::string remedy = ": " + input.remedy;
-  const bool waits = now - input.since < kPatience;
+  const bool waits = now - input.since < patience_;
   if (input.publishers == 0) {
     // What came once is enough, whoever sent it may be gone.
     if (waits || (input.kind == InputKind::kOnce && input.was_heard)) return {};

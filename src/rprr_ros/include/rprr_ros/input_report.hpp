@@ -16,6 +16,9 @@ namespace rprr {
 /// Says on a node's Health what the node needs and does not hear, a few seconds after it began or
 /// fell silent, by the wall clock. That includes /clock where simulated time is used. Any thread
 /// may call it.
+///
+/// How long it waits: the parameter /rprr/input_patience [s], which launch files set that start
+/// their own source of images once everything is up; else InputWatch::kPatience.
 class InputReport {
  public:
   /// Looks once a second, on the node handle's callback queue. health must outlive this object.
@@ -32,6 +35,7 @@ class InputReport {
   std::string clock_problem();
 
   Health& health_;
+  const Duration patience_;
   std::mutex mutex_;
   InputWatch watch_;
   std::set<std::string> topics_;

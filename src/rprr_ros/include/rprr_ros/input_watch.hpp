@@ -22,6 +22,8 @@ enum class InputKind {
 /// was heard. Not for several threads.
 class InputWatch {
  public:
+  explicit InputWatch(Duration patience = kPatience) : patience_(patience) {}
+
   struct Problem {
     std::string topic;
     std::string text;  // what is missing, where it was listened for, and the remedy
@@ -35,7 +37,7 @@ class InputWatch {
   /// How many nodes publish the topic now, as far as the subscriber is connected with them.
   void connected(const std::string& topic, std::size_t publishers, SteadyTime now);
 
-  /// What has been missing for more than kPatience.
+  /// What has been missing for longer than the patience.
   std::vector<Problem> problems(SteadyTime now) const;
 
   static constexpr Duration kPatience = from_seconds(3.5);
@@ -54,6 +56,7 @@ class InputWatch {
 
   std::string missing(const std::string& topic, const Input& input, SteadyTime now) const;
 
+  const Duration patience_;
   std::map<std::string, Input> inputs_;
   SilenceWatch silence_{kSilence};
 };

@@ -19,7 +19,7 @@
 namespace rprr {
 namespace {
 
-constexpr double kGroundTruthPatience = 3.0;  // s
+constexpr double kGroundTruthPatience = 1.0;  // [s]
 constexpr int kQueue = 4;
 constexpr auto kPoll = std::chrono::milliseconds(5);
 
