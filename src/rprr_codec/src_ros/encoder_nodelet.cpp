@@ -96,8 +96,9 @@ class EncoderNodelet : public nodelet::Nodelet {
   void subscribe(ros::NodeHandle& nh, const std::string& prefix) {
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     inputs_ = std::make_unique<InputReport>(nh, *health_);
-    receipts_ = nh.subscribe("/station/receipts", 20, &EncoderNodelet::on_receipt, this, hints);
-    inputs_->expect(receipts_.getTopic(), InputKind::kStream, "receipts of the station",
+    receipts_topic_ = nh.resolveName("/station/receipts");
+    receipts_ = nh.subscribe(receipts_topic_, 20, &EncoderNodelet::on_receipt, this, hints);
+    inputs_->expect(receipts_topic_, InputKind::kOnce, "receipts of the station",
                     "start the station, with the same master, and look whether it is in reach");
     subscribers_.push_back(
         nh.subscribe(prefix + "outgoing", 8, &EncoderNodelet::on_outgoing, this));
@@ -167,7 +168,9 @@ class EncoderNodelet : public nodelet::Nodelet {
     pump();
   }
 
+  // How long none came is the queue's to say.
   void on_receipt(const rprr_msgs::ReceiptConstPtr& message) {
+    inputs_->heard(receipts_topic_);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       queue_->receipt(message->robot, to_stamps(message->held), to_stamps(message->repeat),
@@ -310,6 +313,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   std::vector<ros::Subscriber> subscribers_;
   std::shared_ptr<RadioLinks> links_;
   std::unique_ptr<InputReport> inputs_;
+  std::string receipts_topic_;
   std::unique_ptr<LiveOptions> live_;
   ros::WallTimer timer_;
   std::unique_ptr<Worker> worker_;

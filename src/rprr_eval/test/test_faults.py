@@ -97,6 +97,9 @@ class Faults(unittest.TestCase):
         if text:
             self.expect_said(text)
 
+    def expect_silence_counted(self, robot):
+        self.expect_counted(f"not heard: {RELAYED}/{robot}/rprr/encoded", f"no frame of '{robot}'")
+
     def said(self):
         return "\n".join(line for line in self.bench.heard_since(self.begun)
                          if " = " not in line or "reason" in line or "(times)" in line)
@@ -120,12 +123,12 @@ class Faults(unittest.TestCase):
     def test_reference_robot_restarts(self):
         since = self.restart(A)
         self.expect_said("no answer from eyebug_a")
-        self.expect_counted("silent eyebug_a", "no frame of 'eyebug_a'")
+        self.expect_silence_counted(A)
         self.expect_service(since, "a restarted")
 
     def test_dependent_robot_restarts(self):
         since = self.restart(B)
-        self.expect_counted("silent eyebug_b", "no frame of 'eyebug_b'")
+        self.expect_silence_counted(B)
         self.expect_service(since, "b restarted")
 
     def test_station_restarts(self):
@@ -151,7 +154,7 @@ class Faults(unittest.TestCase):
         since = time.monotonic()
         self.expect_said("no answer from eyebug_a")
         self.expect_counted("encoder: no receipts", "the station sends no receipts")
-        self.expect_counted("silent eyebug_b", "no frame of 'eyebug_b'")
+        self.expect_silence_counted(B)
         self.expect_service(since, "the radio was down")
 
     def test_messages_are_lost(self):

@@ -89,7 +89,7 @@ TEST_F(ProfileTest, ItsTableHoldsWhatHoldsForEveryTable) {
 }
 
 // Of all nodes into which launch files load a profile. All four have link_recovery; the table of
-// one of them says so for all.
+// one of them says so for all. A name in two tables is one parameter: a profile sets it in both.
 TEST(ProfileKeys, AreThoseOfAllTables) {
   Profile profile;
   ExchangeNodeOptions exchange;
@@ -102,7 +102,11 @@ TEST(ProfileKeys, AreThoseOfAllTables) {
   std::set<std::string> wanted;
   for (const Option& option : all.options()) {
     if (option.wiring) continue;
-    EXPECT_TRUE(wanted.insert(option.name).second) << option.name << " is in two tables";
+    wanted.insert(option.name);
+    const Option& first = *all.find(option.name);
+    EXPECT_EQ(option.initial, first.initial) << option.name;
+    EXPECT_EQ(allowed_text(option), allowed_text(first)) << option.name;
+    EXPECT_EQ(option.unit, first.unit) << option.name;
   }
   const std::set<std::string> listed(profile_keys().begin(), profile_keys().end());
   EXPECT_EQ(listed, wanted) << "mend rprr_geometry/src/profile_keys.cpp";

@@ -74,6 +74,9 @@ ExchangeNode::ExchangeNode(ros::NodeHandle nh, ros::NodeHandle private_nh,
   advertise();
   worker_ = std::make_unique<Worker>(kQueue);
   for (const std::string& peer : options_.references) set_reference(peer, true);
+  for (const std::string& peer : options_.peers) {
+    peer_topics_[peer] = nh_.resolveName("/" + peer + "/rprr/relative_pose");
+  }
   for (const std::string& peer : options_.peers) subscribe(peer);
   if (options_.link_recovery) links_ = RadioLinks::look_after(topics_of(subscribers_));
   timer_ = nh_.createWallTimer(
@@ -113,7 +116,7 @@ void ExchangeNode::subscribe(const std::string& peer) {
     listen<rprr_msgs::PoseUpdate>(peer, "update");
   }
   listen<rprr_msgs::RelativePose>(peer, "relative_pose");
-  inputs_.expect(subscribers_.back().getTopic(), InputKind::kSometimes, "robot '" + peer + "'",
+  inputs_.expect(peer_topics_[peer], InputKind::kRegularly, "message of robot '" + peer + "'",
                  "start its nodes, with the same master, and look whether it is in reach");
 }
 
@@ -133,6 +136,7 @@ void ExchangeNode::on_message(const std::string& peer,
                               const ros::MessageEvent<Message const>& event) {
   const boost::shared_ptr<Message const> message = event.getConstMessage();
   const double age = (ros::Time::now() - message->header.stamp).toSec();
+  inputs_.heard(peer_topics_.at(peer));
   const std::string stranger = senders_.note(ros::message_traits::datatype<Message>() + peer,
                                              event.getPublisherName(), steady_now());
   if (!stranger.empty()) health_.warn("two senders", "as '" + peer + "': " + stranger);

@@ -72,6 +72,7 @@ class ExchangeNode {
   std::shared_ptr<RadioLinks> links_;  // null: links are not recovered
   ros::Publisher samples_, update_, preview_, pose_, decisions_;
   std::unique_ptr<Worker> worker_;  // before what posts to it, so that it goes after
+  std::map<std::string, std::string> peer_topics_;  // one of each peer; not changed once it listens
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer service_;
   ros::WallTimer timer_;

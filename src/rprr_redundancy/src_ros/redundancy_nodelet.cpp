@@ -56,9 +56,10 @@ class RedundancyNodelet : public nodelet::Nodelet {
     outgoing_ = nh.advertise<OutgoingFrame>(prefix + "outgoing", 8);
     prediction_ = nh.advertise<rprr_msgs::BlockMask>(prefix + "prediction", 8);
     worker_ = std::make_unique<Worker>(kQueue);
+    exchange_topic_ = nh.resolveName(prefix + "exchange");
     subscribers_.push_back(
-        nh.subscribe(prefix + "exchange", 16, &RedundancyNodelet::on_decision, this));
-    inputs_->expect(subscribers_.back().getTopic(), InputKind::kSometimes, "exchanges",
+        nh.subscribe(exchange_topic_, 16, &RedundancyNodelet::on_decision, this));
+    inputs_->expect(exchange_topic_, InputKind::kRegularly, "exchanges",
                     "start the nodelet rprr_pose/Exchange of this robot");
     std::vector<std::string> radio_topics;
     for (const std::string& peer : wiring.peers) radio_topics.push_back(subscribe(nh, peer));
@@ -89,6 +90,7 @@ class RedundancyNodelet : public nodelet::Nodelet {
   }
 
   void on_decision(const FrameDecisionConstPtr& decision) {
+    inputs_->heard(exchange_topic_);
     post([this, decision](RedundancyOutput& out) { stage_->take(*decision, steady_now(), out); });
   }
 
@@ -158,6 +160,7 @@ class RedundancyNodelet : public nodelet::Nodelet {
   }
 
   std::string robot_;
+  std::string exchange_topic_;
   std::unique_ptr<Health> health_;
   std::unique_ptr<InputReport> inputs_;
   std::shared_ptr<RadioLinks> links_;   // null: links are not recovered

@@ -38,7 +38,7 @@ Camera camera_of(double fx, double fy, double cx, double cy, const ImageSize& si
 }
 
 Result<Camera> checked(const Camera& camera) {
-  if (!camera.valid()) return Error{"camera_info without usable intrinsics (K and P) or size"};
+  if (!camera.valid()) return Error{"no usable intrinsics (K and P) or size; calibrate the camera"};
   return rounded_for_wire(camera);
 }
 

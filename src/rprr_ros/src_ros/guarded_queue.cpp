@@ -24,7 +24,7 @@ GuardedQueue::~GuardedQueue() {
 void GuardedQueue::run() {
   while (!stop_) {
     try {
-      queue_.callAvailable(kLook);
+      queue_.callOne(kLook);  // of several at once, those behind one that throws would wait
     } catch (const std::exception& error) {
       on_exception_(error.what());
     } catch (...) {

@@ -18,7 +18,8 @@ void InputWatch::heard(const std::string& topic, SteadyTime now) {
   const auto found = inputs_.find(topic);
   if (found == inputs_.end()) return;
   found->second.was_heard = true;
-  if (found->second.kind == InputKind::kStream) silence_.heard(topic, now);
+  const InputKind kind = found->second.kind;
+  if (kind == InputKind::kStream || kind == InputKind::kRegularly) silence_.heard(topic, now);
 }
 
 void InputWatch::connected(const std::string& topic, std::size_t publishers, SteadyTime now) {
@@ -50,9 +51,10 @@ std::string InputWatch::missing(const std::string& topic, const Input& input,
   }
   if (input.kind == InputKind::kSometimes) return {};
   if (!input.was_heard) {
-    return waits ? std::string()
-                 : "no " + input.what + " yet on " + topic + ", though somebody publishes it" +
-                       remedy;
+    return waits || input.kind == InputKind::kRegularly
+               ? std::string()
+               : "no " + input.what + " yet on " + topic + ", though somebody publishes it" +
+                     remedy;
   }
   const auto silent = silence_.silent_for(topic, now);
   if (!silent) return {};

@@ -191,7 +191,8 @@ void RgbdSubscriber::emit(const Pair& pair, const sensor_msgs::CameraInfo& info)
   }
   const Result<Camera> camera = camera_from_info(info, size);
   if (!camera) {
-    return health_.error("camera_info unusable", info_topic_ + ": " + camera.reason());
+    return health_.error("camera_info unusable",
+                         info_topic_ + ", of " + rgb_.topic + ": " + camera.reason());
   }
   const Result<cv::Mat> bgr = bgr_from_image(*pair.rgb);
   if (!bgr) return health_.error("colour unusable", rgb_.topic + ": " + bgr.reason());

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kIntervals = 4.0;  // between messages: a longer silence is too long
 constexpr double kSmoothing = 0.3;  // share of the newest interval in the smoothed one
+constexpr double kFirst = 3.0;      // times the least silence, after a single message
 
 }  // namespace
 
@@ -30,7 +31,9 @@ std::optional<double> SilenceWatch::silent_for(const std::string& name, SteadyTi
   const auto known = heard_.find(name);
   if (known == heard_.end()) return {};
   const double seconds = to_seconds(now - known->second.last);
-  if (seconds < std::max(to_seconds(least_), kIntervals * known->second.interval)) return {};
+  const double interval = known->second.interval;
+  const double least = to_seconds(least_) * (interval == 0.0 ? kFirst : 1.0);
+  if (seconds < std::max(least, kIntervals * interval)) return {};
   return seconds;
 }
 

@@ -34,10 +34,19 @@ TEST(SilenceWatch, ASlowRobotIsGivenItsTime) {
   EXPECT_TRUE(watch.silent_for("b", at(last + 21.0)));
 }
 
+TEST(SilenceWatch, AfterASingleMessageNobodyKnowsHowOftenTheyCome) {
+  SilenceWatch watch;
+  watch.heard("b", at(0.0));
+  EXPECT_FALSE(watch.silent_for("b", at(8.9)));
+  EXPECT_TRUE(watch.silent_for("b", at(9.1)));
+}
+
 TEST(SilenceWatch, RobotsAreWatchedApart) {
   SilenceWatch watch;
-  watch.heard("a", at(0.0));
-  watch.heard("b", at(5.0));
+  for (const double since : {0.0, 0.5}) {
+    watch.heard("a", at(since));
+    watch.heard("b", at(5.0 + since));
+  }
   EXPECT_TRUE(watch.silent_for("a", at(6.0)));
   EXPECT_FALSE(watch.silent_for("b", at(6.0)));
 }

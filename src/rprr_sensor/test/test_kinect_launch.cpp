@@ -31,7 +31,7 @@ class KinectLaunchTest : public testing::Test {
 TEST_F(KinectLaunchTest, MissingCamerasAreNamedForEachDriver) {
   EXPECT_TRUE(says("first", "libfreenect: ")) << messages_["first"];
   EXPECT_TRUE(says("second", "/no/such/file.oni")) << messages_["second"];
-  EXPECT_TRUE(says("third", "nobody publishes it")) << messages_["third"];
+  EXPECT_TRUE(says("third", "nobody publishes /camera/other_depth")) << messages_["third"];
 }
 
 TEST_F(KinectLaunchTest, TopicsOfAnotherDriverArePassedOnAsTheyAre) {

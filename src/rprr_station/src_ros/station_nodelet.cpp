@@ -57,6 +57,7 @@ class StationNodelet : public nodelet::Nodelet {
  private:
   struct Robot {
     std::size_t number = 0;  // in ~robots
+    std::string topic;
     ros::Subscriber encoded;
     ros::Publisher rgb;
     ros::Publisher info;
@@ -91,8 +92,8 @@ class StationNodelet : public nodelet::Nodelet {
           [this, name](const Event& event) { on_encoded(name, event); });
       options.transport_hints = ros::TransportHints().tcpNoDelay();
       robots_[name].encoded = nh.subscribe(options);
-      inputs_->expect(robots_[name].encoded.getTopic(), InputKind::kStream,
-                      "frame of '" + name + "'", "look at its nodes, its camera and its radio");
+      inputs_->expect(robots_[name].topic, InputKind::kStream, "frame of '" + name + "'",
+                      "look at its nodes, its camera and its radio");
       if (parameters_.link_recovery) {
         links_ = RadioLinks::look_after({robots_[name].encoded.getTopic()});
       }
@@ -104,6 +105,7 @@ class StationNodelet : public nodelet::Nodelet {
     const std::string prefix = "/station/" + name + "/";
     Robot& robot = robots_[name];
     robot.number = robots_.size() - 1;
+    robot.topic = nh.resolveName("/" + name + "/rprr/encoded");
     robot.rgb = nh.advertise<sensor_msgs::Image>(prefix + "rgb/image_rect_color", 4);
     robot.info = nh.advertise<sensor_msgs::CameraInfo>(prefix + "rgb/camera_info", 4);
     robot.depth = nh.advertise<sensor_msgs::Image>(prefix + "depth_registered/image_rect", 4);
@@ -184,7 +186,7 @@ class StationNodelet : public nodelet::Nodelet {
     const Stamp last = station_->last(name);
     const StationOutput output = station_->receive(received, steady_now());
     if (station_->last(name) != last) {
-      inputs_->heard(robots_[name].encoded.getTopic());
+      inputs_->heard(robots_[name].topic);
       publish_receipt(name, {});
     }
     publish(output);

@@ -15,7 +15,8 @@ namespace rprr {
 enum class InputKind {
   kStream,     // all the time
   kOnce,       // at least once, as a latched camera_info
-  kSometimes,  // when there is a reason: then only publishers are missed, not messages
+  kSometimes,  // when there is a reason: only publishers are missed, not messages
+  kRegularly,  // perhaps never; but once it was heard, silence is missed
 };
 
 /// What a node needs to hear, and what is missing of it. Knows no ROS: whoever owns it says what
@@ -41,8 +42,8 @@ class InputWatch {
   std::vector<Problem> problems(SteadyTime now) const;
 
   static constexpr Duration kPatience = from_seconds(3.5);
-  /// A stream that was heard may be silent for this long, and longer if it is slow.
-  static constexpr Duration kSilence = from_seconds(5.0);
+  /// What was heard regularly may be silent for this long, and longer if it is slow.
+  static constexpr Duration kSilence = from_seconds(3.0);
 
  private:
   struct Input {

@@ -13,7 +13,8 @@ namespace rprr {
 /// much longer than between its messages so far.
 class SilenceWatch {
  public:
-  /// least: silences that are shorter are never too long.
+  /// least: silences that are shorter are never too long. Of what was heard only once nobody knows
+  /// how often it comes: it has three times as long.
   explicit SilenceWatch(Duration least = from_seconds(3.0)) : least_(least) {}
 
   /// A message of that name came.

@@ -46,17 +46,17 @@ void CameraRelay::connect(Line& line, const std::string& from, const std::string
       [this, &line](const boost::shared_ptr<const Message>& message) {
         line.to.publish(message);
         ++line.passed;
-        inputs_->heard(line.from.getTopic());
+        inputs_->heard(line.topic);
       };
+  line.topic = nh.resolveName(from);
   line.from = nh.subscribe<Message>(from, kQueue, pass);
-  inputs_->expect(line.from.getTopic(), latched ? InputKind::kOnce : InputKind::kStream,
-                  "message for " + to,
+  inputs_->expect(line.topic, latched ? InputKind::kOnce : InputKind::kStream, "message for " + to,
                   "start the camera's driver with depth registration, or give its topic's name");
 }
 
 void CameraRelay::show(const ros::WallTimerEvent& /*event*/) {
   for (const Line& line : lines_) {
-    health_->show(line.from.getTopic() + " (messages)", std::to_string(line.passed));
+    health_->show(line.topic + " (messages)", std::to_string(line.passed));
   }
 }
 

@@ -26,6 +26,7 @@ class CameraRelay : public nodelet::Nodelet {
  private:
   /// One topic, passed on.
   struct Line {
+    std::string topic;  // what is passed on
     ros::Subscriber from;
     ros::Publisher to;
     std::atomic<std::uint64_t> passed{0};
