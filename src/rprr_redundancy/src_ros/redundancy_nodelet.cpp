@@ -60,7 +60,7 @@ class RedundancyNodelet : public nodelet::Nodelet {
     subscribers_.push_back(
         nh.subscribe(exchange_topic_, 16, &RedundancyNodelet::on_decision, this));
     inputs_->expect(exchange_topic_, InputKind::kRegularly, "exchanges",
-                    "start the nodelet rprr_pose/Exchange of this robot");
+                    "look at this robot's camera, and whether its rprr_pose/Exchange runs");
     std::vector<std::string> radio_topics;
     for (const std::string& peer : wiring.peers) radio_topics.push_back(subscribe(nh, peer));
     if (wiring.link_recovery) links_ = RadioLinks::look_after(radio_topics);

@@ -15,8 +15,8 @@ constexpr double kShownFor = 10.0;          // [s]
 
 }  // namespace
 
-Health::Health(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
-               const std::string& hardware)
+Health::Health(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
+               const std::string& name, const std::string& hardware)
     : name_(name),
       updater_(std::make_unique<diagnostic_updater::Updater>(nh, private_nh,
                                                              private_nh.getNamespace())) {

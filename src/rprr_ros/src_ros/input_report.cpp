@@ -22,7 +22,7 @@ Duration configured_patience() {
 
 }  // namespace
 
-InputReport::InputReport(ros::NodeHandle nh, Health& health)
+InputReport::InputReport(const ros::NodeHandle& nh, Health& health)
     : health_(health),
       patience_(configured_patience()),
       watch_(patience_),

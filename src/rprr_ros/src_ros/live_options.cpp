@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rprr_ros/live_options.hpp"
 
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,10 @@ std::string edit_method(const Option& option) {
   if (option.words.empty()) return {};
   std::string words;
   for (const std::string& word : option.words) {
-    words += (words.empty() ? "" : ", ") + ("{'name': '" + word + "', 'value': '" + word +
-                                            "', 'type': 'str', 'description': '" + word + "'}");
+    std::ostringstream text;
+    text << (words.empty() ? "" : ", ") << "{'name': '" << word << "', 'value': '" << word
+         << "', 'type': 'str', 'description': '" << word << "'}";
+    words += text.str();
   }
   return "{'enum': [" + words + "], 'enum_description': '" + option.name + "'}";
 }
@@ -96,8 +99,8 @@ void set_parameter(const ros::NodeHandle& nh, const std::string& name, const Opt
 
 }  // namespace
 
-LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Refused refused,
-                         Changed changed)
+LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, const OptionTable& table,
+                         Refused refused, Changed changed)
     : nh_(private_nh),
       table_(live_rows(table)),
       refused_(std::move(refused)),
@@ -110,10 +113,10 @@ LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, R
   service_ = nh_.advertiseService("set_parameters", &LiveOptions::on_request, this);
 }
 
-LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
-                         Changed changed)
+LiveOptions::LiveOptions(const ros::NodeHandle& private_nh, const OptionTable& table,
+                         Health& health, Changed changed)
     : LiveOptions(
-          private_nh, std::move(table),
+          private_nh, table,
           [&health](const std::string& reason) {
             health.warn("reconfiguration", "refused: " + reason);
           },

@@ -40,7 +40,7 @@ std::string percent_text(double share) {
 
 }  // namespace
 
-RgbdSubscriber::RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh,
+RgbdSubscriber::RgbdSubscriber(const ros::NodeHandle& nh, ros::NodeHandle private_nh,
                                const std::string& robot, const InputOptions& options,
                                Health& health, Callback callback)
     : robot_(robot),

@@ -23,7 +23,7 @@ namespace rprr {
 class Health {
  public:
   /// hardware is the robot (or station) that the nodelet serves; name is the nodelet's.
-  Health(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& name,
+  Health(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name,
          const std::string& hardware);
   ~Health();
 

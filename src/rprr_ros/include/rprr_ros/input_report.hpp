@@ -22,7 +22,7 @@ namespace rprr {
 class InputReport {
  public:
   /// Looks once a second, on the node handle's callback queue. health must outlive this object.
-  InputReport(ros::NodeHandle nh, Health& health);
+  InputReport(const ros::NodeHandle& nh, Health& health);
 
   /// topic: a full name that this process subscribes to; what: "colour images"; remedy: what the
   /// user can do, "start the camera".

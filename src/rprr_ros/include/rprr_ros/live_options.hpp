@@ -33,10 +33,10 @@ class LiveOptions {
   /// The structs that the table is bound to must outlive this. Requests are served on the node
   /// handle's callback queue; the structs are written there alone, and both functions are called
   /// there.
-  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Refused refused,
+  LiveOptions(const ros::NodeHandle& private_nh, const OptionTable& table, Refused refused,
               Changed changed);
   /// The same; what is refused is a warning of health, which must outlive this.
-  LiveOptions(const ros::NodeHandle& private_nh, OptionTable table, Health& health,
+  LiveOptions(const ros::NodeHandle& private_nh, const OptionTable& table, Health& health,
               Changed changed);
 
  private:

@@ -36,7 +36,7 @@ class RgbdSubscriber {
   /// The callback runs on a thread of this object, on which transports may throw. health must
   /// outlive this object.
   /// Parameters of image_transport itself are read from private_nh.
-  RgbdSubscriber(ros::NodeHandle nh, ros::NodeHandle private_nh, const std::string& robot,
+  RgbdSubscriber(const ros::NodeHandle& nh, ros::NodeHandle private_nh, const std::string& robot,
                  const InputOptions& options, Health& health, Callback callback);
   ~RgbdSubscriber();
 
