@@ -85,6 +85,13 @@ class _Result(unittest.TextTestResult):
             self.case = ElementTree.SubElement(self.suite, "testcase", name=str(test))
         self._note("error", self.errors[-1][1])
 
+    def addSubTest(self, test, subtest, err):
+        super().addSubTest(test, subtest, err)
+        if err is not None:
+            failed = issubclass(err[0], test.failureException)
+            self._note("failure" if failed else "error",
+                       (self.failures if failed else self.errors)[-1][1])
+
     def addSkip(self, test, reason):
         super().addSkip(test, reason)
         if self.case is None:
