@@ -171,6 +171,7 @@ class EncoderNodelet : public nodelet::Nodelet {
   // How long none came is the queue's to say.
   void on_receipt(const rprr_msgs::ReceiptConstPtr& message) {
     inputs_->heard(receipts_topic_);
+    health_->clear("no receipts");
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       queue_->receipt(message->robot, to_stamps(message->held), to_stamps(message->repeat),

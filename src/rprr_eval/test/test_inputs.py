@@ -9,6 +9,7 @@ INPUTS_LOGS=FOLDER keeps the nodes' logs.
 import os
 import pathlib
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -243,6 +244,25 @@ class Inputs(unittest.TestCase):
                 lambda part=part: self.holding(["eyebug_c exchange", part],
                                                time.monotonic() - begun), WITHIN),
                 f"nothing of {part} in\n" + "\n".join(self.problems(WITHIN)))
+
+    def status(self, *options):
+        done = subprocess.run(["rosrun", "rprr_bringup", "status", "--seconds", "3", *options],
+                              stdout=subprocess.PIPE, text=True, check=False, timeout=60)
+        return done.returncode, done.stdout
+
+    def test_6_status_answers_whether_it_works(self):
+        self.assertIsNotNone(self.bench.seconds_until_rebuilt(time.monotonic(), 20))
+        code, said = self.status()
+        self.assertEqual(code, 0, said)
+        for part in (A + ": ", B + ": ", "predicted", "kB/s", "latency"):
+            self.assertIn(part, said)
+        self.assertTrue(said.endswith("working\n"), said)
+        self.bench.cameras.alter[B] = no_colour
+        time.sleep(WITHIN)
+        code, said = self.status("--robots")
+        self.assertEqual(code, 1, said)
+        self.assertIn(f"no frame of '{B}'", said)
+        self.assertIn(f"/{B}/{RGB}", said)
 
 
 if __name__ == "__main__":

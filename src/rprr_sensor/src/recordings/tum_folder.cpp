@@ -85,6 +85,7 @@ Result<std::vector<AssociatedFiles>> associate_lists(const fs::path& folder, dou
   add_remark(remark, depth->remark);
   const auto stamps_of = [](const std::vector<StampedFile>& files) {
     std::vector<Stamp> stamps;
+    stamps.reserve(files.size());
     for (const auto& file : files) stamps.push_back(file.stamp);
     return stamps;
   };

@@ -78,8 +78,10 @@ Result<std::string> for_each_line(const std::string& path, const std::string& ex
     }
     if (good == 0 && bad == 0 && comment) comment(line);  // perhaps a header
     if (bad++ == 0) {
-      first_bad = path + ":" + std::to_string(number) + ": expected '" + expected + "', found '" +
-                  line.substr(0, 120) + "'";
+      std::ostringstream text;
+      text << path << ":" << number << ": expected '" << expected << "', found '"
+           << line.substr(0, 120) << "'";
+      first_bad = text.str();
     }
   }
   if (file.bad()) return Error{path + ": cannot be read to its end"};

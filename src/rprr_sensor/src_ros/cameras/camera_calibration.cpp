@@ -85,7 +85,7 @@ LensCalibration CameraCalibration::lens(camera_info_manager::CameraInfoManager& 
                      url);
     return nominal;
   }
-  const LensCalibration lens = lens_from_info(info);
+  LensCalibration lens = lens_from_info(info);
   const auto usable = Rectification::create(lens);
   std::string fault = usable.reason();
   if (usable &&
