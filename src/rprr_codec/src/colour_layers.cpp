@@ -28,7 +28,7 @@ cv::Vec3b mean_of(const cv::Mat& bgr, const cv::Rect& cell) {
       for (std::size_t c = 0; c < kChannels; ++c) sum[c] += row[static_cast<std::size_t>(i) + c];
     }
   }
-  const int area = cell.area();
+  const int area = std::max(cell.area(), 1);
   const auto mean = [&](std::size_t c) {
     return static_cast<std::uint8_t>((sum[c] + area / 2) / area);
   };

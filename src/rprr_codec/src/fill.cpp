@@ -264,7 +264,7 @@ void paint(const cv::Mat& blocks, cv::Mat& bgr, int side, const BlockMask& sent)
   for (int v = 0, block = 0; v < blocks.rows; ++v) {
     for (int u = 0; u < blocks.cols; ++u, ++block) {
       if (sent[block]) continue;
-      const auto colour = blocks.at<cv::Vec3b>(v, u);
+      const auto& colour = blocks.at<cv::Vec3b>(v, u);
       bgr(cv::Rect(u * side, v * side, side, side) & whole) =
           cv::Scalar(colour[0], colour[1], colour[2]);
     }

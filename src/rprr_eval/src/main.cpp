@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
 
 #include "commands.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app(
       "RPRR measured without ROS: the same state machines and codecs that the nodelets run");
   app.require_subcommand(1);
@@ -24,4 +26,7 @@ int main(int argc, char** argv) {
   rprr::add_images_command(app, exit_code);
   CLI11_PARSE(app, argc, argv);
   return exit_code;
+} catch (const std::exception& error) {  // of a library: ends with a sentence
+  std::cerr << "error: " << error.what() << "\n";
+  return 1;
 }

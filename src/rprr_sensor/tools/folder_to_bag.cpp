@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 
 #include "progress.hpp"
 #include "rprr_sensor/recordings/tum_folder.hpp"
@@ -110,10 +111,12 @@ int convert(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"Turns a folder of RGB-D images into a bag. Depth keeps its exact values."};
   Options options;
   declare(app, options);
   CLI11_PARSE(app, argc, argv);
   return convert(options);
+} catch (const std::exception& error) {  // of a library: ends with a sentence
+  return rprr::fail(error.what());
 }

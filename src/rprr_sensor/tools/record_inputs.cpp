@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <iostream>
 
 #include "progress.hpp"
@@ -90,7 +91,7 @@ int record(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   // Takes ROS's own arguments (__name:=..., remappings) out; Ctrl-C ends the recording in order.
   ros::init(argc, argv, "record_inputs", ros::init_options::AnonymousName);
   CLI::App app{
@@ -116,4 +117,6 @@ int main(int argc, char** argv) {
                       ": start the cameras first, or set ROS_MASTER_URI");
   }
   return record(options);
+} catch (const std::exception& error) {  // of a library: ends with a sentence
+  return rprr::fail(error.what());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <array>
+#include <exception>
 
 #include "progress.hpp"
 #include "rprr_sensor_ros/bag_writer.hpp"
@@ -48,7 +49,7 @@ int make(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"Renders two robots walking through a synthetic room into a bag, poses exact."};
   Options options;
   app.add_option("bag", options.bag, "bag to write")->required();
@@ -69,4 +70,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return make(options);
+} catch (const std::exception& error) {  // of a library: ends with a sentence
+  return rprr::fail(error.what());
 }

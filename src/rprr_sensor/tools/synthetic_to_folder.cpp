@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <exception>
 
 #include "progress.hpp"
 #include "rprr_sensor/recordings/tum_writer.hpp"
@@ -44,7 +45,7 @@ int make(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{
       "Renders a walk through a synthetic room into a folder in the TUM layout, poses exact."};
   Options options;
@@ -66,4 +67,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return make(options);
+} catch (const std::exception& error) {  // of a library: ends with a sentence
+  return rprr::fail(error.what());
 }
