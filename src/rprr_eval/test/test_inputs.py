@@ -229,16 +229,27 @@ class Inputs(unittest.TestCase):
         self.expect_silence([A + " exchange", f"robot '{B}'"], "no peer")
         self.expect_silence([A + " encoder", "/station/receipts"], "no receipts")
 
-    def test_5_a_robot_that_hears_nothing_says_so(self):
+    def another_robot(self, name, *arguments):
+        """An exchange node beside the pair's, which needs eyebug_d."""
+        rospy.set_param(f"/{name}/peers", ["eyebug_d"])
         processes = self.bench.processes
+        node = Process(name, ["rosrun", "rprr_pose", "exchange_node", f"__name:={name}",
+                              *arguments],
+                       processes.environment, processes.folder / f"{name}.log")
+        node.start()
+        self.addCleanup(node.stop)
+        return node
+
+    def test_5_a_transport_that_is_not_installed_is_named_with_those_that_are(self):
+        node = self.another_robot("odd", "_robot:=eyebug_o", "_depth_transport:=compressedDepth")
+        self.expect_report(["eyebug_o exchange", "'compressedDepth'", DEPTH, "installed", "dhcm"],
+                           "no transport")
+        self.assertTrue(node.alive(), "the process goes on for whoever shares it")
+
+    def test_5_a_robot_that_hears_nothing_says_so(self):
         rospy.set_param("/lonely_time", True)
-        rospy.set_param("/lonely/peers", ["eyebug_d"])
-        lonely = Process("lonely", ["rosrun", "rprr_pose", "exchange_node", "__name:=lonely",
-                                    "_robot:=eyebug_c", "/use_sim_time:=/lonely_time"],
-                         processes.environment, processes.folder / "lonely.log")
-        lonely.start()
-        self.addCleanup(lonely.stop)
         begun = time.monotonic()
+        self.another_robot("lonely", "_robot:=eyebug_c", "/use_sim_time:=/lonely_time")
         for part in (RGB, DEPTH, INFO, "/clock", "eyebug_d"):
             self.assertTrue(wait_for(
                 lambda part=part: self.holding(["eyebug_c exchange", part],

@@ -44,7 +44,7 @@ constexpr double same_surface_within(double metres) {
 }
 
 /// Share of a's valid block-centre pixels whose surface b sees under the true pose: they project
-/// into b on a valid depth within same_surface_within() of it.
+/// into b on a valid depth that differs by less than same_surface_within().
 double overlap(const DepthFrame& a, const Camera& a_camera, const DepthFrame& b,
                const Camera& b_camera, const Pose& b_from_a);
 
