@@ -105,7 +105,7 @@ class Cameras:
         messages = [camera_info(self.recording.camera, header),
                     image_message(bgr, "bgr8", header), image_message(depth, encoding, header)]
         if self.alter[robot]:
-            messages = self.alter[robot](*copy.deepcopy(messages))
+            messages = self.alter[robot](*(copy.deepcopy(message) for message in messages))
         for publisher, message in zip(self._publishers[robot], messages):
             if message is not None:
                 publisher.publish(message)

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <algorithm>
 
 #include <opencv2/core.hpp>
 #include <string>
@@ -57,10 +58,13 @@ class CameraTest : public testing::Test {
 
   /// Images, depth above all, are what the synthetic Kinect saw.
   void check_against_truth(double least_coverage) {
-    ASSERT_GE(topics_.frames(), 1u);
-    const auto& [stamp, depth] = *topics_.depth.begin();
-    ASSERT_TRUE(topics_.colour.count(stamp) && topics_.info.count(stamp))
-        << "colour, depth and camera_info have one stamp";
+    // The first frame may have come before all three topics were connected.
+    const auto frame =
+        std::find_if(topics_.depth.begin(), topics_.depth.end(), [this](const auto& depth) {
+          return topics_.colour.count(depth.first) && topics_.info.count(depth.first);
+        });
+    ASSERT_NE(frame, topics_.depth.end()) << "colour, depth and camera_info have one stamp";
+    const auto& [stamp, depth] = *frame;
     EXPECT_EQ(depth.encoding, "16UC1");
     EXPECT_EQ(depth.header.frame_id, "eyebug_a_rgb_optical_frame");
     const auto counts = depth_from_image(depth, {});
