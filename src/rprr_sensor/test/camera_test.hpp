@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 #include <algorithm>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <string>
 
