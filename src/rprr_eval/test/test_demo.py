@@ -65,7 +65,7 @@ class Demo(ScriptTest):
                 self.assertIn(" 0 lost", self.end(demo, 0))
 
     def test_an_interrupt_ends_it_at_any_moment(self):
-        for moment in (0.5, 2.0, 4.0, 7.0):
+        for moment in (0.5, 1.2, 2.0, 3.0, 4.0, 7.0):
             with self.subTest(moment=moment):
                 demo = subprocess.Popen(
                     [str(script_test.SCRIPTS / "demo"), str(self.walk), "--exchanges", "1000"],
