@@ -57,12 +57,17 @@ class Demo(ScriptTest):
                         "9", "--width", "320", "--height", "240"], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
-    def test_both_profiles_lose_no_exchange_side_by_side(self):
-        demos = {profile: self.start(str(self.walk), "--exchanges", "8", "--profile", profile)
-                 for profile in ("default", "paper")}
-        for profile, demo in demos.items():
+    def test_both_profiles_lose_no_exchange(self):
+        for profile in ("default", "paper"):
             with self.subTest(profile=profile):
+                demo = self.start(str(self.walk), "--exchanges", "8", "--profile", profile)
                 self.assertIn(" 0 lost", self.end(demo, 0))
+
+    def test_two_run_side_by_side(self):
+        demos = [self.start(str(self.walk), "--exchanges", "4") for _ in range(2)]
+        said = [self.end(demo, 0) for demo in demos]
+        pictures = {line for text in said for line in text.splitlines() if "picture: " in line}
+        self.assertEqual(len(pictures), 2, said)
 
     def test_an_interrupt_ends_it_at_any_moment(self):
         for moment in (0.5, 1.2, 2.0, 3.0, 4.0, 7.0):
