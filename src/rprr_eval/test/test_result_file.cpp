@@ -50,7 +50,6 @@ TEST(ResultFile, WhatCannotBeWrittenIsOneSentenceThatNamesIt) {
 
 // A device on which nothing fits stands for a disk that is full.
 TEST(ResultFile, AFullDiskIsToldAtTheEnd) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   std::ofstream full("/dev/full");
   full << std::string(100000, 'x');
   EXPECT_NE(stream_problem(full, "results.json").find("results.json"), std::string::npos);

@@ -10,10 +10,6 @@ void InputWatch::expect(const std::string& topic, InputKind kind, const std::str
   inputs_[topic] = {kind, what, remedy, now, 0, false};
 }
 
-void InputWatch::forget(const std::string& topic) {
-  inputs_.erase(topic);
-}
-
 void InputWatch::heard(const std::string& topic, SteadyTime now) {
   const auto found = inputs_.find(topic);
   if (found == inputs_.end()) return;

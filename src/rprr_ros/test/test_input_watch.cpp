@@ -93,9 +93,6 @@ TEST(InputWatch, TopicsThatNobodyNeedsAreIgnored) {
   watch.heard(kTopic, after(0.0));
   watch.connected(kTopic, 3, after(0.0));
   EXPECT_EQ(problem_of(watch, 100.0), "");
-  watch.expect(kTopic, InputKind::kStream, "images", "start it", after(0.0));
-  watch.forget(kTopic);
-  EXPECT_EQ(problem_of(watch, 100.0), "");
 }
 
 }  // namespace

@@ -33,7 +33,6 @@ class InputWatch {
   /// From now on this topic is needed. what: "colour images"; remedy: "start the camera".
   void expect(const std::string& topic, InputKind kind, const std::string& what,
               const std::string& remedy, SteadyTime now);
-  void forget(const std::string& topic);
   void heard(const std::string& topic, SteadyTime now);
   /// How many nodes publish the topic now, as far as the subscriber is connected with them.
   void connected(const std::string& topic, std::size_t publishers, SteadyTime now);
