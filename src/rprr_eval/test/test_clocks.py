@@ -6,38 +6,29 @@ and /diagnostics says by how much the clocks differ.
 What is asserted of times is generous, for busy machines.
 """
 
-import pathlib
 import re
-import shutil
 import sys
-import tempfile
 import time
-import unittest
 
 import script_test
+from bench_test import BenchTest
 
-sys.path.insert(0, str(script_test.SCRIPTS / "faults"))
-from bench import Bench, make_recording  # noqa: E402
-from clocks import RobotClock  # noqa: E402
-from processes import B, wait_for  # noqa: E402
+from clocks import RobotClock
+from processes import B, wait_for
 
 PATIENCE = 20.0  # seconds
 APART = 3.7  # seconds
 TOLERANCE_MS = 150  # a tick, and this machine's load
 
 
-class Clocks(unittest.TestCase):
+class Clocks(BenchTest):
+    name = "clocks"
+    options = {"own_clock": (B,)}
+
     @classmethod
-    def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="rprr_clocks_"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        recording = make_recording(cls.folder / "room")
-        cls.bench = Bench(cls.folder / "nodes", recording, rate=5.0, own_clock=(B,))
-        cls.addClassCleanup(cls.bench.stop)
+    def begin(cls):
         cls.clock = RobotClock(B)
         cls.addClassCleanup(cls.clock.stop)
-        if not cls.bench.await_service(60):
-            raise AssertionError("the pair never worked\n" + "\n".join(cls.bench.heard_since(0)))
 
     def set_clock(self, offset):
         """b's clock, and so its camera's stamps; returns when."""

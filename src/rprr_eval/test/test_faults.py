@@ -7,25 +7,19 @@ The scene is synthetic, so every view is held against what the camera saw. Times
 is asserted is generous, for busy machines. FAULTS_LOGS=FOLDER keeps the nodes' logs.
 """
 
-import os
-import pathlib
-import shutil
 import sys
-import tempfile
 import time
-import unittest
 import zlib
 
 import numpy
 import rospy
 
 import script_test
+from bench_test import BenchTest
 
-sys.path.insert(0, str(script_test.SCRIPTS / "faults"))
-from bench import Bench, make_recording  # noqa: E402
-from processes import A, B, RELAYED, wait_for  # noqa: E402
+from processes import A, B, RELAYED, wait_for
 
-from rprr_msgs.msg import BlockPreview, EncodedFrame  # noqa: E402
+from rprr_msgs.msg import BlockPreview, EncodedFrame
 
 PATIENCE = 10.0  # seconds until a new frame is rebuilt; 3 are the aim
 OUTAGE = 4.0  # seconds; longer than every timeout
@@ -33,18 +27,12 @@ BAD_RADIO = 3.0  # seconds
 MORE_MEMORY_KB = 24 << 10  # of a process, after all the faults
 
 
-class Faults(unittest.TestCase):
+class Faults(BenchTest):
+    name = "faults"
+
     @classmethod
     def setUpClass(cls):
-        kept = os.environ.get("FAULTS_LOGS")
-        cls.folder = pathlib.Path(kept or tempfile.mkdtemp(prefix="rprr_faults_"))
-        if not kept:
-            cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        recording = make_recording(cls.folder / "room")
-        cls.bench = Bench(cls.folder / "nodes", recording, rate=5.0)
-        cls.addClassCleanup(cls.bench.stop)
-        if not cls.bench.await_service(60):
-            raise AssertionError("the pair never worked\n" + "\n".join(cls.bench.heard_since(0)))
+        super().setUpClass()
         cls.memory = {process: process.resident_kb() for process in cls.bench.processes.all()}
 
     def setUp(self):

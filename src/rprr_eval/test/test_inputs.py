@@ -6,25 +6,19 @@ remedy, and the report goes when the fault goes. While all is well nothing is sa
 INPUTS_LOGS=FOLDER keeps the nodes' logs.
 """
 
-import os
-import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 import genpy
 import numpy
 import rospy
 
 import script_test
+from bench_test import BenchTest
 
-sys.path.insert(0, str(script_test.SCRIPTS / "faults"))
-from bench import Bench, make_recording  # noqa: E402
-from processes import A, B, Process, wait_for  # noqa: E402
-from scene import image_message, pixels_of  # noqa: E402
+from processes import A, B, Process, wait_for
+from scene import image_message, pixels_of
 
 WITHIN = 5.0 + 4.0  # seconds: a report comes within 5, diagnostics once a second, this machine is busy
 GONE_WITHIN = 6.0   # seconds after it is mended
@@ -138,18 +132,9 @@ FAULTS = [
 ]
 
 
-class Inputs(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = os.environ.get("INPUTS_LOGS")
-        cls.folder = pathlib.Path(kept or tempfile.mkdtemp(prefix="rprr_inputs_"))
-        if not kept:
-            cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        recording = make_recording(cls.folder / "room")
-        cls.bench = Bench(cls.folder / "nodes", recording, rate=4.0)
-        cls.addClassCleanup(cls.bench.stop)
-        if not cls.bench.await_service(60):
-            raise AssertionError("the pair never worked\n" + "\n".join(cls.bench.heard_since(0)))
+class Inputs(BenchTest):
+    name = "inputs"
+    rate = 4.0
 
     def tearDown(self):
         for robot in (A, B):
