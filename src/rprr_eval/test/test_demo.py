@@ -94,6 +94,26 @@ class Demo(ScriptTest):
         said = self.end(self.start(str(self.folder), "--timeout", "20"), 1)
         self.assertIn("associations.txt", said)
 
+    def test_a_bag_without_the_topics_is_not_played(self):
+        bag = str(self.folder / "two robots.bag")
+        subprocess.run(["rosrun", "rprr_sensor", "synthetic_to_bag", bag, "--frames", "1",
+                        "--width", "160", "--height", "120"], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        colour = "/eyebug_a/camera/rgb/image_rect_color"
+
+        def check(*topics, of=bag):
+            return subprocess.run([str(script_test.SCRIPTS / "check_bag"), *topics, "--", "echo",
+                                   "played", "--bags", of], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, check=False)
+        good = check(colour)
+        self.assertEqual((good.returncode, good.stdout), (0, f"played --bags {bag}\n"))
+        for wrong, said in ((check(colour, "/cam/rgb"), ("no /cam/rgb", "a_rgb:=", colour)),
+                            (check(colour, of="/nowhere.bag"), ("/nowhere.bag",))):
+            self.assertEqual(wrong.returncode, 1, wrong.stdout)
+            for part in said:
+                self.assertIn(part, wrong.stdout)
+            self.assertNotIn("played", wrong.stdout)
+
 
 if __name__ == "__main__":
     script_test.main(Demo)
